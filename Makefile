@@ -1,0 +1,85 @@
+# Raybook: a literate teaching ray tracer and the harness that grades a course
+# built on it. `make help` lists what can be made; src/build.mk says how the
+# renderer is compiled and what CC, OPT, VARIANT and TODO do.
+
+.DEFAULT_GOAL := $(if $(VARIANT)$(TODO),build,help)
+MAKEFLAGS += --no-print-directory
+
+include src/build.mk
+
+SCENE ?= scenes/cornell-box.json scenes/knot.json
+ARGS ?=
+OUT ?=
+A ?=
+REVEAL ?=
+SUBMISSIONS ?=
+python := build/venv/bin/python
+grader := build/venv/bin/raybook-grader
+
+help: ## this list
+	@echo "Raybook $(VERSION): make <target>"
+	@sed -n 's/^\([a-z][a-z_.-]*\):.*## \(.*\)/  \1|\2/p' $(MAKEFILE_LIST) | \
+	    awk -F'|' '{ printf "%-24s%s\n", $$1, $$2 }'
+	@echo "  CC=gcc|clang OPT=release|debug|asan VARIANT=dir TODO=\"names\" V=1"
+
+setup: ## installs what is missing: system packages, build/venv, Unity
+	@.setup/setup.sh
+
+build: $(program) ## compiles the renderer; says where it is
+	@echo "$(program)"
+
+# The set-up comes first, in a make of its own: what the second make reads
+# (pkg-config) may only be there after it.
+render: ## [SCENE=file.json] [ARGS="--spp 16"] draws the demo scenes into build/out/
+	@.setup/setup.sh
+	@$(MAKE) render-scenes
+
+render-scenes: $(program) build/meshes/done
+	@mkdir -p build/out
+	@for scene in $(SCENE); do \
+	    name=$$(basename $$scene .json); \
+	    $(program) $$scene -o build/out/$$name.exr --png build/out/$$name.png $(ARGS) || exit; \
+	done
+
+test: ## every test: format, C (Unity, also with sanitizers), Python, end to end
+	@.setup/setup.sh
+	@$(MAKE) check-format
+	@$(MAKE) unit-tests
+	@$(MAKE) unit-tests OPT=asan
+	@$(MAKE) $(program) build/meshes/done compile_commands.json kit
+	@$(python) -m pytest -q $(ARGS)
+
+format: ## writes the C files in the house style (.clang-format)
+	@clang-format -i $(c_files)
+
+check-format:
+	@clang-format --dry-run --Werror $(c_files)
+
+c_files = $(shell find src assignments grader -name '*.[ch]' | LC_ALL=C sort)
+
+handout: ## [OUT=dir] [A=03] [REVEAL=01,02] writes the student edition
+	@.setup/setup.sh
+	@$(grader) handout "$(or $(OUT),build/handout)" $(if $(A),--assignment $(A)) \
+	    $(if $(REVEAL),--reveal $(REVEAL))
+
+grade: ## SUBMISSIONS=dir [OUT=dir] [A=01] grades a class
+	@test -n "$(SUBMISSIONS)" || { echo "make grade: say SUBMISSIONS=dir" >&2; exit 2; }
+	@.setup/setup.sh
+	@$(MAKE) kit
+	@$(grader) grade "$(SUBMISSIONS)" --out "$(or $(OUT),build/grades)" \
+	    $(if $(A),--assignment $(A)) $(ARGS)
+
+# The reference as objects, for linking with one module of a student.
+kit: build/meshes/done ## what the grader links students' modules with: build/kit/
+	@$(MAKE) OPT=release objects lto= config=kit
+
+objects: $(objects)
+	@python3 grader/make_kit.py --objects $(objdir) --out build/kit --version '$(VERSION)' \
+	    --cc '$(CC)' --cflags='$(filter-out -Isrc -Werror,$(cflags))' \
+	    --ldflags='$(ldflags)' --ldlibs='$(ldlibs)'
+
+clean: ## removes what is compiled; keeps the installed environment
+	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
+
+.PHONY: help setup build render render-scenes test format check-format handout grade kit objects \
+    clean

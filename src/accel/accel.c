@@ -1,0 +1,59 @@
+/* accel.c - see accel.h. */
+#include "accel/accel.h"
+
+#include "base/memory.h"
+
+const char *const accel_names[] = {"bvh", "linear", NULL};
+
+static void build_bvh(struct accel *a, const aabb boxes[], uint32_t order[])
+{
+    uint32_t count = a->primitive_count;
+    size_t room = count > 1 ? 2 * (size_t)count - 1 : 1;
+    a->nodes = mem_alloc(room, sizeof *a->nodes);
+    a->node_count = bvh_build(boxes, count, a->nodes, order);
+    if (a->node_count > 0)
+        a->nodes = mem_resize(a->nodes, a->node_count, sizeof *a->nodes);
+}
+
+struct accel accel_build(enum accel_kind kind, const aabb boxes[],
+                         uint32_t primitive_count, uint32_t order[])
+{
+    struct accel a = {kind, primitive_count, NULL, 0};
+    if (kind == ACCEL_BVH)
+        build_bvh(&a, boxes, order);
+    else
+        for (uint32_t i = 0; i < primitive_count; i++)
+            order[i] = i;
+    return a;
+}
+
+static bool query_linear(const struct accel *a, ray *r, leaf_test_fn *test,
+                         const void *context, void *hit)
+{
+    return a->primitive_count > 0 &&
+           test(context, 0, a->primitive_count, r, hit);
+}
+
+bool accel_nearest(const struct accel *a, ray *r, leaf_test_fn *test,
+                   const void *context, void *hit)
+{
+    if (a->kind == ACCEL_LINEAR)
+        return query_linear(a, r, test, context, hit);
+    const struct bvh tree = {a->nodes, a->node_count};
+    return bvh_nearest(&tree, r, test, context, hit);
+}
+
+bool accel_any(const struct accel *a, ray *r, leaf_test_fn *test,
+               const void *context, void *hit)
+{
+    if (a->kind == ACCEL_LINEAR)
+        return query_linear(a, r, test, context, hit);
+    const struct bvh tree = {a->nodes, a->node_count};
+    return bvh_any(&tree, r, test, context, hit);
+}
+
+void accel_free(struct accel *a)
+{
+    mem_free(a->nodes);
+    a->nodes = NULL;
+}

@@ -1,0 +1,40 @@
+/* accel.h - the acceleration structures behind one interface. */
+#ifndef RAYBOOK_ACCEL_ACCEL_H
+#define RAYBOOK_ACCEL_ACCEL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "accel/bvh.h"
+#include "accel/leaf.h"
+#include "base/box.h"
+
+/* ACCEL_LINEAR has no structure: it tests everything, which is what the
+ * others are measured and checked against. */
+enum accel_kind { ACCEL_BVH, ACCEL_LINEAR };
+
+/* NULL-terminated, in the order of enum accel_kind. */
+extern const char *const accel_names[];
+
+struct accel {
+    enum accel_kind kind;
+    uint32_t primitive_count;
+    struct bvh_node *nodes; /* ACCEL_BVH */
+    uint32_t node_count;
+};
+
+/* Builds a structure over boxes[0 .. primitive_count - 1] and fills order
+ * (room for primitive_count) with the order in which its leaves name the
+ * primitives. Release with accel_free. */
+struct accel accel_build(enum accel_kind kind, const aabb boxes[],
+                         uint32_t primitive_count, uint32_t order[]);
+
+/* See bvh_nearest and bvh_any. */
+bool accel_nearest(const struct accel *a, ray *r, leaf_test_fn *test,
+                   const void *context, void *hit);
+bool accel_any(const struct accel *a, ray *r, leaf_test_fn *test,
+               const void *context, void *hit);
+
+void accel_free(struct accel *a);
+
+#endif

@@ -1,0 +1,49 @@
+/* box.h - axis-aligned bounding boxes: the type and its arithmetic.
+ *
+ * How a ray meets a box is a module of its own: accel/aabb.h. */
+#ifndef RAYBOOK_BASE_BOX_H
+#define RAYBOOK_BASE_BOX_H
+
+#include "base/vec.h"
+
+/* All points p with lower <= p <= upper, component by component. A box may
+ * be flat (lower.y == upper.y): it is then a rectangle, not empty. */
+typedef struct {
+    vec3 lower, upper;
+} aabb;
+
+/* The empty box: the neutral element of aabb_union. */
+static inline aabb aabb_empty(void)
+{
+    aabb box = {{INFINITY, INFINITY, INFINITY},
+                {-INFINITY, -INFINITY, -INFINITY}};
+    return box;
+}
+
+static inline aabb aabb_union(aabb a, aabb b)
+{
+    aabb box = {vec3_min(a.lower, b.lower), vec3_max(a.upper, b.upper)};
+    return box;
+}
+
+static inline aabb aabb_include(aabb a, vec3 point)
+{
+    aabb box = {vec3_min(a.lower, point), vec3_max(a.upper, point)};
+    return box;
+}
+
+static inline vec3 aabb_centroid(aabb a)
+{
+    return vec3_scale(vec3_add(a.lower, a.upper), 0.5f);
+}
+
+/* Surface area; 0 for the empty box. */
+static inline float aabb_area(aabb a)
+{
+    vec3 d = vec3_sub(a.upper, a.lower);
+    if (!(d.x >= 0.0f && d.y >= 0.0f && d.z >= 0.0f))
+        return 0.0f;
+    return 2.0f * (d.x * d.y + d.y * d.z + d.z * d.x);
+}
+
+#endif

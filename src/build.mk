@@ -1,0 +1,120 @@
+# build.mk - how the renderer is compiled. Included by the Makefile beside src/,
+# here and in the student edition.
+#
+#   CC=gcc|clang   OPT=release|debug|asan
+#   VARIANT=dir    files of dir/src/ in place of the same files in src/
+#   TODO="a b"     these exercises as stubs: -DTODO_a -DTODO_b
+#
+# Objects go to build/obj/<configuration>/. The plain configuration's program is
+# build/raybook; any other's is build/bin/raybook-<configuration>.
+
+VERSION := 0.1.0
+ifeq ($(origin CC),default)
+  CC := gcc
+endif
+OPT ?= release
+VARIANT ?=
+TODO ?=
+ARCH ?= native
+
+empty :=
+space := $(empty) $(empty)
+variant_name := $(notdir $(patsubst %/,%,$(VARIANT)))
+config := $(OPT)-$(notdir $(CC))$(if $(filter-out native,$(ARCH)),-$(ARCH))
+config := $(config)$(if $(TODO),-todo-$(subst $(space),+,$(sort $(TODO))))
+config := $(config)$(if $(VARIANT),-variant-$(variant_name))
+objdir := build/obj/$(config)
+bindir := build/bin
+program := $(if $(filter release-gcc,$(config)),build/raybook,$(bindir)/raybook-$(config))
+
+# Contraction (a*b+c in one rounding) is off everywhere: results must not depend
+# on the compiler's mood, and edge functions of degenerate triangles must be 0.
+warnings := -std=c99 -Wall -Wextra -Wpedantic -Werror
+common := $(warnings) -Isrc -fopenmp -ffp-contract=off -fno-math-errno
+release := -O3 -march=$(ARCH)
+debug := -O0 -g3
+asan := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all \
+        -fno-omit-frame-pointer
+# Modules are files; only link-time optimisation can inline one into another.
+lto := $(if $(filter release-gcc,$(OPT)-$(notdir $(CC))),-flto=auto)
+
+# -isystem: the warnings are for our code.
+libraries_cflags := $(patsubst -I%,-isystem%,$(filter -I%,$(shell \
+    pkg-config --cflags OpenEXR libcjson stb 2>/dev/null)))
+ldlibs := $(shell pkg-config --libs-only-L OpenEXR libcjson stb 2>/dev/null) \
+    $(filter -lOpenEXRCore%,$(shell pkg-config --libs OpenEXR 2>/dev/null)) \
+    -lcjson -lstb -lm
+
+cflags = $(common) $($(filter release debug asan,$(OPT))) $(lto) $(libraries_cflags) \
+    $(patsubst %,-DTODO_%,$(TODO)) $(CFLAGS)
+ldflags = -fopenmp $($(filter release debug asan,$(OPT))) $(lto) $(LDFLAGS)
+
+sources := $(filter-out src/%/test_%,$(shell find src -name '*.c' | LC_ALL=C sort))
+tests := $(sort $(wildcard src/*/test_*.c assignments/*/test_*.c))
+objects := $(sources:src/%.c=$(objdir)/%.o)
+stamp := $(objdir)/flags.stamp
+
+$(program): $(objects)
+	@mkdir -p $(@D)
+	$(quiet_link) $(CC) $(ldflags) $^ $(ldlibs) -o $@
+
+ifneq ($(VARIANT),)
+# A variant's object may define its contract's symbols (those of the file that it
+# replaces) and nothing more: every other name becomes local to it.
+$(objdir)/%.o: $(VARIANT)/src/%.c src/%.c $(stamp)
+	@mkdir -p $(@D)
+	$(CC) $(filter-out -flto%,$(cflags)) -MMD -MP -c $(VARIANT)/src/$*.c -o $@.all
+	@$(CC) $(filter-out -flto%,$(cflags)) -c src/$*.c -o $@.contract
+	@nm --defined-only --extern-only --format=posix $@.contract | cut -d' ' -f1 > $@.symbols
+	@objcopy --keep-global-symbols=$@.symbols $@.all $@
+endif
+
+$(objdir)/main.o: cflags += -DRAYBOOK_VERSION='"$(VERSION)"' \
+    -DRAYBOOK_VARIANT='"$(or $(variant_name),reference)$(TODO:%= TODO_%)"'
+$(objdir)/%.o: src/%.c $(stamp)
+	@mkdir -p $(@D)
+	$(quiet_cc) $(CC) $(cflags) -MMD -MP -c $< -o $@
+
+# Changes when the flags do, so that objects made with others are made again.
+$(stamp): FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(CC) $(VERSION) $(cflags)' | cmp -s - $@ || \
+	    printf '%s\n' '$(CC) $(VERSION) $(cflags)' > $@
+
+# One program for each test file: Unity, the test, and all objects but main's.
+unity := $(or $(UNITY_ROOT),build/unity)
+testdir := build/test/$(config)
+test_programs := $(patsubst %.c,$(testdir)/%,$(tests))
+
+$(testdir)/%: %.c $(filter-out $(objdir)/main.o,$(objects)) $(unity)/unity.c
+	@mkdir -p $(@D)
+	$(quiet_cc) $(CC) $(filter-out -Wpedantic -Werror,$(cflags)) -isystem $(unity) -MMD -MP \
+	    -MF $@.d $< $(unity)/unity.c $(filter %.o,$^) $(ldlibs) -o $@
+
+unit-tests: $(test_programs)
+	@for test in $^; do \
+	    $$test > $$test.log 2>&1 || { cat $$test.log; exit 1; }; \
+	    echo "$${test#$(testdir)/}: $$(tail -n 2 $$test.log | head -n 1)"; \
+	done
+
+# What clangd needs to know; made again when a source file comes or goes.
+compile_commands.json: $(stamp) src/build.mk
+	@{ printf '['; comma=''; for file in $(sources) $(tests); do \
+	    printf '%s\n{"directory": "%s", "file": "%s", "command": "%s -c %s"}' "$$comma" \
+	        "$(CURDIR)" "$$file" '$(CC) $(filter-out -flto%,$(cflags)) -isystem $(unity)' "$$file"; \
+	    comma=','; done; printf '\n]\n'; } > $@.new
+	@mv $@.new $@
+
+build/meshes/done: scenes/make_meshes.py
+	@python3 scenes/make_meshes.py build/meshes
+	@touch $@
+
+# V=1 shows the commands themselves.
+ifndef V
+  quiet_cc = @echo "  compile $<";
+  quiet_link = @echo "  link $@";
+endif
+
+FORCE:
+.PHONY: FORCE unit-tests
+-include $(objects:.o=.d) $(test_programs:=.d)

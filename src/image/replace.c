@@ -1,0 +1,51 @@
+/* replace.c - see replace.h. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "image/replace.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* mkstemp makes files that only the owner can read; give it the mode that any
+ * other new file would have. */
+static void use_default_mode(int descriptor)
+{
+    mode_t mask = umask(0);
+    umask(mask);
+    fchmod(descriptor, 0666 & ~mask);
+}
+
+bool replace_begin(struct replacement *r, const char *path, struct error *err)
+{
+    int a = snprintf(r->path, sizeof r->path, "%s", path);
+    int b = snprintf(r->temporary, sizeof r->temporary, "%s.XXXXXX", path);
+    if (a >= REPLACE_PATH_SIZE || b >= REPLACE_PATH_SIZE)
+        return error_set(err, "%.80s...: the path is too long", path);
+    struct stat there;
+    if (stat(path, &there) == 0 && S_ISDIR(there.st_mode))
+        return error_set(err, "%s: cannot write: it is a folder", path);
+    int descriptor = mkstemp(r->temporary);
+    if (descriptor < 0)
+        return error_set(err, "%s: cannot write: %s", path, strerror(errno));
+    use_default_mode(descriptor);
+    close(descriptor);
+    return true;
+}
+
+bool replace_commit(struct replacement *r, struct error *err)
+{
+    if (rename(r->temporary, r->path) == 0)
+        return true;
+    int why = errno;
+    replace_abandon(r);
+    return error_set(err, "%s: cannot write: %s", r->path, strerror(why));
+}
+
+void replace_abandon(struct replacement *r)
+{
+    unlink(r->temporary);
+}

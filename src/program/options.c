@@ -1,0 +1,360 @@
+/* options.c - see options.h. */
+#include "program/options.h"
+
+#include <errno.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/nearest.h"
+#include "scene/settings.h"
+
+/* Reads one option's value (NULL when it takes none); false fills *err. */
+typedef bool set_fn(struct options *o, const char *name, const char *value,
+                    struct error *err);
+
+static bool wrong(const char *name, const char *value, const char *expected,
+                  struct error *err)
+{
+    return error_set(err, "%s %s: expected %s (try --help)", name, value,
+                     expected);
+}
+
+static bool read_whole(const char *name, const char *text, long long least,
+                       long long most, long long *out, struct error *err)
+{
+    char expected[80], *end;
+    errno = 0;
+    *out = strtoll(text, &end, 10);
+    if (errno == 0 && end != text && *end == '\0' && *out >= least &&
+        *out <= most)
+        return true;
+    snprintf(expected, sizeof expected, "a whole number from %lld to %lld",
+             least, most);
+    return wrong(name, text, expected, err);
+}
+
+static bool read_int(const char *name, const char *text, int most, int *out,
+                     struct error *err)
+{
+    long long value;
+    if (!read_whole(name, text, 1, most, &value, err))
+        return false;
+    *out = (int)value;
+    return true;
+}
+
+static bool has_ending(const char *path, const char *ending)
+{
+    size_t length = strlen(path), tail = strlen(ending);
+    return length > tail && strcmp(path + length - tail, ending) == 0;
+}
+
+static bool set_output(struct options *o, const char *name, const char *value,
+                       struct error *err)
+{
+    o->output = value;
+    return has_ending(value, ".exr") || has_ending(value, ".png") ||
+           wrong(name, value, "a file name that ends in .exr or .png", err);
+}
+
+static bool set_png(struct options *o, const char *name, const char *value,
+                    struct error *err)
+{
+    o->png = value;
+    return has_ending(value, ".png") ||
+           wrong(name, value, "a file name that ends in .png", err);
+}
+
+static bool set_spp(struct options *o, const char *name, const char *value,
+                    struct error *err)
+{
+    return read_int(name, value, SPP_MAX, &o->spp, err);
+}
+
+static bool set_seed(struct options *o, const char *name, const char *value,
+                     struct error *err)
+{
+    long long seed;
+    if (!read_whole(name, value, 0, INT64_C(1) << 53, &seed, err))
+        return false;
+    o->seed = seed;
+    return true;
+}
+
+static bool set_threads(struct options *o, const char *name, const char *value,
+                        struct error *err)
+{
+    return read_int(name, value, 1024, &o->threads, err);
+}
+
+static bool set_depth(struct options *o, const char *name, const char *value,
+                      struct error *err)
+{
+    return read_int(name, value, DEPTH_MAX, &o->max_depth, err);
+}
+
+/* count whole numbers with one separator between them and nothing after. */
+static bool read_list(const char *text, char separator, int count, int out[])
+{
+    for (int i = 0; i < count; i++) {
+        char *end;
+        errno = 0;
+        long value = strtol(text, &end, 10);
+        if (errno != 0 || end == text || value < 0 || value > FILM_MAX_SIDE)
+            return false;
+        if (*end != (i + 1 < count ? separator : '\0'))
+            return false;
+        out[i] = (int)value;
+        text = end + 1;
+    }
+    return true;
+}
+
+static bool set_resolution(struct options *o, const char *name,
+                           const char *value, struct error *err)
+{
+    int size[2];
+    if (!read_list(value, 'x', 2, size) || size[0] < 1 || size[1] < 1)
+        return wrong(name, value, "WIDTHxHEIGHT, such as 640x480", err);
+    if ((int64_t)size[0] * size[1] > FILM_MAX_PIXELS)
+        return error_set(err, "%s %s: too many pixels, expected at most %d",
+                         name, value, FILM_MAX_PIXELS);
+    o->width = size[0];
+    o->height = size[1];
+    return true;
+}
+
+static bool set_crop(struct options *o, const char *name, const char *value,
+                     struct error *err)
+{
+    int edge[4];
+    if (!read_list(value, ',', 4, edge) || edge[0] >= edge[2] ||
+        edge[1] >= edge[3])
+        return wrong(name, value, "X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1", err);
+    o->has_crop = true;
+    o->crop = (struct window){edge[0], edge[1], edge[2], edge[3]};
+    return true;
+}
+
+/* An index into a NULL-terminated list of names, or -1 with a message. */
+static int read_name(const char *name, const char *value,
+                     const char *const names[], struct error *err)
+{
+    for (int i = 0; names[i] != NULL; i++)
+        if (strcmp(value, names[i]) == 0)
+            return i;
+    const char *near = nearest_name(value, names);
+    error_set(err, "%s %s: unknown name%s%s%s", name, value,
+              near ? ", did you mean " : " (try --help)", near ? near : "",
+              near ? "?" : "");
+    return -1;
+}
+
+static bool set_accel(struct options *o, const char *name, const char *value,
+                      struct error *err)
+{
+    int kind = read_name(name, value, accel_names, err);
+    if (kind < 0)
+        return false;
+    o->accel = (enum accel_kind)kind;
+    return true;
+}
+
+static bool set_integrator(struct options *o, const char *name,
+                           const char *value, struct error *err)
+{
+    o->integrator = value;
+    return read_name(name, value, integrator_names, err) >= 0;
+}
+
+static bool set_override(struct options *o, const char *name, const char *value,
+                         struct error *err)
+{
+    (void)name, (void)err; /* its text is checked with the scene's */
+    o->override = value;
+    return true;
+}
+
+static bool set_time_limit(struct options *o, const char *name,
+                           const char *value, struct error *err)
+{
+    char *end;
+    o->time_limit = strtod(value, &end);
+    if (end != value && *end == '\0' && o->time_limit > 0.0 &&
+        o->time_limit < 1e9)
+        return true;
+    return wrong(name, value, "a number of seconds above 0", err);
+}
+
+static bool set_stats(struct options *o, const char *name, const char *value,
+                      struct error *err)
+{
+    (void)name, (void)err;
+    o->stats = value;
+    return true;
+}
+
+static bool set_quiet(struct options *o, const char *name, const char *value,
+                      struct error *err)
+{
+    (void)name, (void)value, (void)err;
+    return o->quiet = true;
+}
+
+static bool set_help(struct options *o, const char *name, const char *value,
+                     struct error *err)
+{
+    (void)name, (void)value, (void)err;
+    return o->help = true;
+}
+
+static bool set_version(struct options *o, const char *name, const char *value,
+                        struct error *err)
+{
+    (void)name, (void)value, (void)err;
+    return o->version = true;
+}
+
+static bool not_yet(struct options *o, const char *name, const char *value,
+                    struct error *err)
+{
+    (void)o, (void)value;
+    return error_set(err, "%s: not supported by this version yet", name);
+}
+
+/* value: how the help names it; NULL: the option stands alone. help NULL:
+ * refused by name, and not in the help. */
+static const struct option {
+    const char *name, *letter, *value, *help;
+    set_fn *set;
+} table[] = {
+    {"--output", "-o", "FILE",
+     "the image: .exr (32-bit float) or .png (tone-mapped);\n"
+     "default: the scene's name + .exr, in the current folder",
+     set_output},
+    {"--png", NULL, "FILE", "also write a tone-mapped preview", set_png},
+    {"--spp", NULL, "N", "samples a pixel", set_spp},
+    {"--seed", NULL, "N", "of the random numbers (default 0)", set_seed},
+    {"--threads", NULL, "N", "default: one a processor", set_threads},
+    {"--resolution", NULL, "WxH", "pixels, such as 640x480", set_resolution},
+    {"--max-depth", NULL, "N", "longest chain of glass or mirrors", set_depth},
+    {"--integrator", NULL, "NAME", "intersection_test", set_integrator},
+    {"--accel", NULL, "NAME", "bvh (default) or linear (tests everything)",
+     set_accel},
+    {"--override", NULL, "JSON",
+     "merged into the scene, such as\n"
+     "'{\"film\": {\"resolution\": [64, 64]}}'",
+     set_override},
+    {"--crop", NULL, "X0,Y0,X1,Y1", "render only that window", set_crop},
+    {"--time-limit", NULL, "S",
+     "stop after S seconds, with the same number of samples\n"
+     "in every pixel",
+     set_time_limit},
+    {"--stats", NULL, "FILE|-", "counters and times, as JSON", set_stats},
+    {"--quiet", "-q", NULL, "say nothing but errors", set_quiet},
+    {"--help", "-h", NULL, "this text", set_help},
+    {"--version", NULL, NULL, "the version", set_version},
+    {"--aov", NULL, "LIST", NULL, not_yet},
+    {"--pixel", NULL, "X,Y", NULL, not_yet},
+    {"--preview", NULL, NULL, NULL, not_yet},
+    {"--tev", NULL, NULL, NULL, not_yet},
+};
+
+enum { OPTION_COUNT = sizeof table / sizeof table[0] };
+
+static const struct option *find_option(const char *text, size_t length)
+{
+    for (int i = 0; i < OPTION_COUNT; i++) {
+        const struct option *o = &table[i];
+        if (strlen(o->name) == length && strncmp(o->name, text, length) == 0)
+            return o;
+        if (o->letter != NULL && strcmp(o->letter, text) == 0)
+            return o;
+    }
+    return NULL;
+}
+
+static bool unknown_option(const char *text, struct error *err)
+{
+    const char *names[OPTION_COUNT + 1] = {NULL};
+    for (int i = 0; i < OPTION_COUNT; i++)
+        names[i] = table[i].name;
+    const char *near = nearest_name(text, names);
+    if (near != NULL)
+        return error_set(err, "unknown option %s: did you mean %s?", text,
+                         near);
+    return error_set(err, "unknown option %s (try --help)", text);
+}
+
+static bool set_scene(struct options *o, const char *text, struct error *err)
+{
+    if (o->scene != NULL)
+        return error_set(err, "%s: expected one scene file, there is %s too",
+                         text, o->scene);
+    o->scene = text;
+    return true;
+}
+
+/* One argument; its value may be the next one or stand behind '='. */
+static bool parse_one(struct options *out, int *i, int argc, char *argv[],
+                      struct error *err)
+{
+    const char *text = argv[*i];
+    if (text[0] != '-' || text[1] == '\0')
+        return set_scene(out, text, err);
+    const char *equals = strchr(text, '=');
+    size_t length = equals ? (size_t)(equals - text) : strlen(text);
+    const struct option *option = find_option(text, length);
+    if (option == NULL)
+        return unknown_option(text, err);
+    if (option->value == NULL && equals != NULL)
+        return error_set(err, "%s takes no value", option->name);
+    if (option->value == NULL || option->help == NULL)
+        return option->set(out, option->name, NULL, err);
+    if (equals == NULL && *i + 1 >= argc)
+        return error_set(err, "%s: the value is missing, expected %s",
+                         option->name, option->value);
+    const char *value = equals ? equals + 1 : argv[++*i];
+    return option->set(out, option->name, value, err);
+}
+
+bool options_parse(int argc, char *argv[], struct options *out,
+                   struct error *err)
+{
+    static const struct options none;
+    *out = none;
+    out->seed = -1;
+    for (int i = 1; i < argc; i++)
+        if (!parse_one(out, &i, argc, argv, err))
+            return false;
+    if (out->scene == NULL && !out->help && !out->version)
+        return error_set(err, "no scene file given (try --help)");
+    return true;
+}
+
+static void print_option(const struct option *o)
+{
+    char left[40];
+    snprintf(left, sizeof left, "%s%s%s %s", o->letter ? o->letter : "",
+             o->letter ? ", " : "    ", o->name, o->value ? o->value : "");
+    printf("  %-28s", left);
+    for (const char *c = o->help; *c != '\0'; c++) {
+        putchar(*c);
+        if (*c == '\n')
+            printf("%30s", "");
+    }
+    putchar('\n');
+}
+
+void options_print_help(void)
+{
+    puts("usage: raybook [options] scene.json\n\n"
+         "Renders a scene into an image. The formats of scene and image are "
+         "in the book.\n");
+    for (int i = 0; i < OPTION_COUNT; i++)
+        if (table[i].help != NULL)
+            print_option(&table[i]);
+    puts("\nexit code: 0 done, 2 bad input or usage, 1 anything else");
+}

@@ -1,0 +1,116 @@
+/* load_objects.c - the objects of a scene file. */
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene/load_parts.h"
+#include "scene/obj_reader.h"
+
+/* Paths are relative to the folder of the scene file. The caller owns the
+ * answer. */
+static char *resolve(const char *scene_file, const char *path)
+{
+    const char *slash = strrchr(scene_file, '/');
+    size_t folder = slash ? (size_t)(slash - scene_file) + 1 : 0;
+    if (path[0] == '/')
+        folder = 0;
+    char *full = mem_alloc(folder + strlen(path) + 1, 1);
+    memcpy(full, scene_file, folder);
+    strcpy(full + folder, path);
+    return full;
+}
+
+/* First `transform`, then `translate`. */
+static struct transform load_placement(struct json_reader *j, const cJSON *node)
+{
+    struct transform t = json_transform(j, json_get(node, "transform"));
+    vec3 zero = vec3_make(0.0f, 0.0f, 0.0f);
+    return transform_translated(
+        t, json_vec3(j, json_get(node, "translate"), zero));
+}
+
+static void check_positions(struct json_reader *j, const cJSON *node,
+                            const struct mesh *m)
+{
+    for (uint32_t i = 0; i < m->vertex_count; i++) {
+        if (vec3_is_finite(m->positions[i]))
+            continue;
+        json_fault(j, node, "the transform moves vertex %u out of range", i);
+        return;
+    }
+}
+
+static void load_mesh(struct json_reader *j, const cJSON *node,
+                      struct object *out)
+{
+    static const char *const keys[] = {
+        "type",          "path",  "transform", "translate",
+        "material_name", "light", NULL};
+    json_keys(j, node, keys);
+    const cJSON *path = json_require(j, node, "path");
+    struct transform to_world = load_placement(j, node);
+    const char *name = json_string(j, path, "");
+    if (!json_fine(j))
+        return;
+    char *full = resolve(j->file, name);
+    struct error fault = {""};
+    if (obj_read(full, &out->mesh, &fault)) {
+        mesh_transform(&out->mesh, &to_world);
+        check_positions(j, node, &out->mesh);
+    } else {
+        json_fault(j, path, "%s", fault.text);
+    }
+    mem_free(full);
+}
+
+static void load_sphere(struct json_reader *j, const cJSON *node,
+                        struct object *out)
+{
+    static const char *const keys[] = {"type",          "center", "radius",
+                                       "material_name", "light",  NULL};
+    json_keys(j, node, keys);
+    out->sphere.center = json_vec3(j, json_require(j, node, "center"),
+                                   vec3_make(0.0f, 0.0f, 0.0f));
+    out->sphere.radius =
+        json_float(j, json_require(j, node, "radius"), above_zero, 1.0f);
+}
+
+static void load_object(struct json_reader *j, const cJSON *materials,
+                        const cJSON *node, const struct scene *scene,
+                        struct object *out)
+{
+    static const char *const kinds[] = {"mesh", "sphere", "rect", NULL};
+    if (!cJSON_IsObject(node)) {
+        json_unexpected(j, node, "an object { ... }");
+        return;
+    }
+    const cJSON *type = json_require(j, node, "type");
+    int kind = json_name(j, type, kinds);
+    if (kind > OBJECT_SPHERE)
+        not_supported(j, type, kinds[kind]);
+    if (json_get(node, "light") != NULL)
+        not_supported(j, json_get(node, "light"), "area lights");
+    const cJSON *name = json_require(j, node, "material_name");
+    int material = name ? find_named(j, materials, name, "material") : -1;
+    if (!json_fine(j))
+        return;
+    out->material = &scene->materials[material];
+    out->kind = (enum object_kind)kind;
+    if (out->kind == OBJECT_MESH)
+        load_mesh(j, node, out);
+    else
+        load_sphere(j, node, out);
+}
+
+void load_objects(struct json_reader *j, const cJSON *materials,
+                  const cJSON *node, struct scene *scene)
+{
+    if (!json_fine(j) || node == NULL || !json_is_list(j, node))
+        return;
+    size_t count = (size_t)cJSON_GetArraySize(node);
+    scene->objects = mem_alloc(count, sizeof *scene->objects);
+    for (const cJSON *item = node->child; item && json_fine(j);
+         item = item->next)
+        load_object(j, materials, item, scene,
+                    &scene->objects[scene->object_count++]);
+}

@@ -1,0 +1,154 @@
+/* scene.c - what a ray hits in a scene; see scene.h. */
+#include "scene/scene.h"
+
+#include "base/memory.h"
+
+static uint64_t count_primitives(const struct scene *scene)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        const struct object *o = &scene->objects[i];
+        count += o->kind == OBJECT_MESH ? o->mesh.triangle_count : 1;
+    }
+    return count;
+}
+
+/* The primitives in the order of the scene file. */
+static void list_primitives(const struct scene *scene, struct primitive *list)
+{
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        const struct object *o = &scene->objects[i];
+        uint32_t count = o->kind == OBJECT_MESH ? o->mesh.triangle_count : 1;
+        for (uint32_t k = 0; k < count; k++, list++) {
+            list->object = i;
+            list->triangle = k;
+            if (o->kind == OBJECT_MESH)
+                mesh_corners(&o->mesh, k, list->corners);
+        }
+    }
+}
+
+static aabb primitive_box(const struct scene *scene, const struct primitive *p)
+{
+    const struct object *o = &scene->objects[p->object];
+    if (o->kind == OBJECT_SPHERE)
+        return sphere_bounds(&o->sphere);
+    aabb box = aabb_include(aabb_empty(), p->corners[0]);
+    return aabb_include(aabb_include(box, p->corners[1]), p->corners[2]);
+}
+
+static void build(struct scene *scene, enum accel_kind kind,
+                  const struct primitive *listed)
+{
+    uint32_t count = scene->primitive_count;
+    aabb *boxes = mem_alloc(count, sizeof *boxes);
+    uint32_t *order = mem_alloc(count, sizeof *order);
+    for (uint32_t i = 0; i < count; i++)
+        boxes[i] = primitive_box(scene, &listed[i]);
+    scene->accel = accel_build(kind, boxes, count, order);
+    scene->primitives = mem_alloc(count, sizeof *scene->primitives);
+    for (uint32_t i = 0; i < count; i++)
+        scene->primitives[i] = listed[order[i]];
+    mem_free(boxes);
+    mem_free(order);
+}
+
+bool scene_prepare(struct scene *scene, enum accel_kind kind, struct error *err)
+{
+    uint64_t count = count_primitives(scene);
+    if (count > UINT32_MAX / 2)
+        return error_set(err, "%llu primitives are more than %u",
+                         (unsigned long long)count, UINT32_MAX / 2);
+    scene->primitive_count = (uint32_t)count;
+    struct primitive *listed = mem_alloc(count, sizeof *listed);
+    list_primitives(scene, listed);
+    build(scene, kind, listed);
+    mem_free(listed);
+    return true;
+}
+
+static bool test_primitive(const struct scene *scene, uint32_t index,
+                           const ray *r, struct scene_hit *hit)
+{
+    const struct primitive *p = &scene->primitives[index];
+    const struct object *o = &scene->objects[p->object];
+    if (o->kind == OBJECT_SPHERE)
+        return sphere_intersect(&o->sphere, r, &hit->t);
+    struct triangle_hit found;
+    if (!triangle_intersect(p->corners, r, &found))
+        return false;
+    hit->t = found.t;
+    hit->b1 = found.b1;
+    hit->b2 = found.b2;
+    return true;
+}
+
+static bool test_nearest(const void *context, uint32_t first, uint32_t count,
+                         ray *r, void *out)
+{
+    struct scene_hit *hit = out;
+    bool found = false;
+    counters_mine.leaves_visited++;
+    counters_mine.primitives_tested += count;
+    for (uint32_t i = first; i < first + count; i++) {
+        if (!test_primitive(context, i, r, hit))
+            continue;
+        hit->primitive = i;
+        r->t_max = hit->t;
+        found = true;
+    }
+    return found;
+}
+
+static bool test_any(const void *context, uint32_t first, uint32_t count,
+                     ray *r, void *out)
+{
+    counters_mine.leaves_visited++;
+    for (uint32_t i = first; i < first + count; i++) {
+        counters_mine.primitives_tested++;
+        if (test_primitive(context, i, r, out))
+            return true;
+    }
+    return false;
+}
+
+bool scene_nearest(const struct scene *scene, const ray *r,
+                   struct scene_hit *hit)
+{
+    ray shrinking = *r;
+    return accel_nearest(&scene->accel, &shrinking, test_nearest, scene, hit);
+}
+
+struct surface scene_surface(const struct scene *scene, const ray *r,
+                             const struct scene_hit *hit,
+                             const struct material **material)
+{
+    const struct primitive *p = &scene->primitives[hit->primitive];
+    const struct object *o = &scene->objects[p->object];
+    *material = o->material;
+    if (o->kind == OBJECT_SPHERE)
+        return sphere_surface(&o->sphere, r, hit->t);
+    struct triangle_hit found = {hit->t, hit->b1, hit->b2};
+    return mesh_surface(&o->mesh, p->triangle, &found);
+}
+
+bool scene_segment_blocked(const struct scene *scene, const struct surface *s,
+                           vec3 point)
+{
+    ray r = surface_segment(s, point);
+    struct scene_hit hit;
+    counters_mine.shadow_rays++;
+    return accel_any(&scene->accel, &r, test_any, scene, &hit);
+}
+
+void scene_free(struct scene *scene)
+{
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        mesh_free(&scene->objects[i].mesh);
+    mem_free(scene->objects);
+    mem_free(scene->materials);
+    mem_free(scene->textures);
+    mem_free(scene->lights);
+    mem_free(scene->primitives);
+    accel_free(&scene->accel);
+}

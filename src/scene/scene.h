@@ -1,0 +1,85 @@
+/* scene.h - everything that a scene file describes, checked and ready.
+ *
+ * scene_load fills a struct scene; scene_prepare builds the structure that
+ * answers what a ray hits; after that the scene does not change and any number
+ * of threads may ask it. scene_free releases all of it. */
+#ifndef RAYBOOK_SCENE_SCENE_H
+#define RAYBOOK_SCENE_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "accel/accel.h"
+#include "base/counters.h"
+#include "base/error.h"
+#include "lights/point_light.h"
+#include "materials/material.h"
+#include "scene/settings.h"
+#include "shapes/mesh.h"
+#include "shapes/sphere.h"
+#include "textures/texture.h"
+
+enum object_kind { OBJECT_MESH, OBJECT_SPHERE };
+
+struct object {
+    enum object_kind kind;
+    struct mesh mesh;     /* OBJECT_MESH, in world space */
+    struct sphere sphere; /* OBJECT_SPHERE */
+    const struct material *material;
+};
+
+/* One thing that a ray can hit, in the order in which leaves name it, with a
+ * copy of what its test reads: a mesh's vertices lie all over memory. */
+struct primitive {
+    uint32_t object;
+    uint32_t triangle; /* of the object's mesh; unused for a sphere */
+    vec3 corners[3];   /* of a triangle */
+};
+
+struct scene {
+    struct film_settings film;
+    struct camera_settings camera;
+    struct integrator_settings integrator;
+
+    struct texture *textures;
+    struct material *materials;
+    struct object *objects;
+    uint32_t object_count;
+    struct point_light *lights;
+    uint32_t light_count;
+
+    struct primitive *primitives; /* from scene_prepare on */
+    uint32_t primitive_count;
+    struct accel accel;
+};
+
+/* Where a ray met something. Ask scene_surface for more. */
+struct scene_hit {
+    uint32_t primitive;
+    float t;
+    float b1, b2; /* barycentric coordinates, of a triangle */
+};
+
+/* Counts the primitives and builds the acceleration structure. Returns false
+ * and fills *err when there are more than 2^32 - 2 of them. */
+bool scene_prepare(struct scene *scene, enum accel_kind kind,
+                   struct error *err);
+
+/* The nearest hit in the ray's range; false on a miss. */
+bool scene_nearest(const struct scene *scene, const ray *r,
+                   struct scene_hit *hit);
+
+/* The surface at a hit of this ray, and its material. */
+struct surface scene_surface(const struct scene *scene, const ray *r,
+                             const struct scene_hit *hit,
+                             const struct material **material);
+
+/* Is the straight way from the surface to the point blocked? The query starts
+ * off the surface and ends at the point: it cannot hit the surface that it
+ * leaves, nor anything behind the point. */
+bool scene_segment_blocked(const struct scene *scene, const struct surface *s,
+                           vec3 point);
+
+void scene_free(struct scene *scene);
+
+#endif

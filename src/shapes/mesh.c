@@ -1,0 +1,110 @@
+/* mesh.c - see mesh.h. */
+#include "shapes/mesh.h"
+
+#include "base/constants.h"
+#include "base/memory.h"
+
+void mesh_corners(const struct mesh *m, uint32_t triangle, vec3 corners[3])
+{
+    const uint32_t *index = &m->indices[3 * (size_t)triangle];
+    for (int i = 0; i < 3; i++)
+        corners[i] = m->positions[index[i]];
+}
+
+static void mesh_uvs(const struct mesh *m, uint32_t triangle, vec2 uv[3])
+{
+    static const vec2 barycentric[3] = {{0, 0}, {1, 0}, {0, 1}};
+    const uint32_t *index = &m->indices[3 * (size_t)triangle];
+    for (int i = 0; i < 3; i++)
+        uv[i] = m->uvs != NULL ? m->uvs[index[i]] : barycentric[i];
+}
+
+static vec3 blend(const vec3 v[3], const float b[3])
+{
+    return vec3_step(vec3_step(vec3_scale(v[0], b[0]), b[1], v[1]), b[2], v[2]);
+}
+
+/* The position is a sum of three products: each of its three terms passes
+ * through at most 7 roundings, b0 = 1 - b1 - b2 included. */
+static vec3 blend_error(const vec3 v[3], const float b[3])
+{
+    const vec3 size[3] = {vec3_abs(v[0]), vec3_abs(v[1]), vec3_abs(v[2])};
+    const float weight[3] = {fabsf(b[0]), fabsf(b[1]), fabsf(b[2])};
+    return vec3_scale(blend(size, weight), rounding_bound(7));
+}
+
+static vec3 smooth_normal(const struct mesh *m, uint32_t triangle,
+                          const float b[3], vec3 geometric)
+{
+    if (m->normals == NULL)
+        return geometric;
+    const uint32_t *index = &m->indices[3 * (size_t)triangle];
+    const vec3 corner[3] = {m->normals[index[0]], m->normals[index[1]],
+                            m->normals[index[2]]};
+    vec3 n = blend(corner, b);
+    float length = vec3_length(n);
+    if (!(length > 0.0f))
+        return geometric; /* opposite normals cancelled */
+    n = vec3_scale(n, 1.0f / length);
+    return vec3_dot(n, geometric) < 0.0f ? vec3_negate(n) : n;
+}
+
+static void differentials(const vec3 p[3], const vec2 uv[3],
+                          struct surface *out)
+{
+    if (!triangle_uv_differentials(p, uv, &out->dp_du, &out->dp_dv))
+        vec3_frame(out->geometric_normal, &out->dp_du, &out->dp_dv);
+}
+
+struct surface mesh_surface(const struct mesh *m, uint32_t triangle,
+                            const struct triangle_hit *hit)
+{
+    struct surface out;
+    vec3 p[3];
+    vec2 uv[3];
+    const float b[3] = {1.0f - hit->b1 - hit->b2, hit->b1, hit->b2};
+    mesh_corners(m, triangle, p);
+    mesh_uvs(m, triangle, uv);
+    out.position = blend(p, b);
+    out.position_error = blend_error(p, b);
+    out.geometric_normal =
+        vec3_normalize(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
+    out.shading_normal = smooth_normal(m, triangle, b, out.geometric_normal);
+    out.uv = vec2_make(b[0] * uv[0].x + b[1] * uv[1].x + b[2] * uv[2].x,
+                       b[0] * uv[0].y + b[1] * uv[1].y + b[2] * uv[2].y);
+    differentials(p, uv, &out);
+    return out;
+}
+
+/* A mirror turns every winding round; turn it back, so that the geometric
+ * normals stay on the side where they were. */
+static void reverse_winding(struct mesh *m)
+{
+    for (size_t i = 0; i < 3 * (size_t)m->triangle_count; i += 3) {
+        uint32_t swap = m->indices[i + 1];
+        m->indices[i + 1] = m->indices[i + 2];
+        m->indices[i + 2] = swap;
+    }
+}
+
+void mesh_transform(struct mesh *m, const struct transform *to_world)
+{
+    if (transform_mirrors(to_world))
+        reverse_winding(m);
+    for (uint32_t i = 0; i < m->vertex_count; i++) {
+        m->positions[i] = transform_point(to_world, m->positions[i]);
+        if (m->normals == NULL)
+            continue;
+        vec3 n = transform_normal(to_world, m->normals[i]);
+        float length = vec3_length(n);
+        m->normals[i] = length > 0.0f ? vec3_scale(n, 1.0f / length) : n;
+    }
+}
+
+void mesh_free(struct mesh *m)
+{
+    mem_free(m->positions);
+    mem_free(m->normals);
+    mem_free(m->uvs);
+    mem_free(m->indices);
+}
