@@ -69,7 +69,7 @@ $(objdir)/%.o: $(VARIANT)/src/%.c src/%.c $(stamp)
 	@objcopy --keep-global-symbols=$@.symbols $@.all $@
 endif
 
-$(objdir)/main.o: cflags += -DRAYBOOK_VERSION='"$(VERSION)"' \
+$(objdir)/main.o $(objdir)/program/results.o: cflags += -DRAYBOOK_VERSION='"$(VERSION)"' \
     -DRAYBOOK_VARIANT='"$(or $(variant_name),reference)$(TODO:%= TODO_%)"'
 $(objdir)/%.o: src/%.c $(stamp)
 	@mkdir -p $(@D)

@@ -246,7 +246,7 @@ uint32_t bvh_build(const aabb boxes[], uint32_t primitive_count,
     /* TODO(bvh_build): make the root a leaf of everything, then split leaves
      * until they are small. Until then the one leaf makes every ray test
      * every primitive. */
-    TODO_WARN("03 bvh", "one leaf holds everything: every ray tests all of it");
+    TODO_WARN("03 bvh", "testing every triangle");
     nodes[0].box = boxes[0];
     for (uint32_t i = 1; i < primitive_count; i++)
         nodes[0].box = aabb_union(nodes[0].box, boxes[i]);
@@ -350,10 +350,12 @@ static bool walk(const struct bvh *tree, ray *r, leaf_test_fn *test,
                  const void *context, void *hit, bool first_hit_will_do)
 {
     bool found = false;
-    TODO_WARN("03 bvh", "testing every triangle");
+    float enter, leave;
+    TODO_WARN("03 bvh", "testing every leaf");
     for (uint32_t i = 0; i < tree->node_count; i++) {
         const struct bvh_node *node = &tree->nodes[i];
-        if (node->count > 0 && test(context, node->first, node->count, r, hit))
+        if (node->count > 0 && aabb_test(&node->box, r, &enter, &leave) &&
+            test(context, node->first, node->count, r, hit))
             found = true;
         if (found && first_hit_will_do)
             return true;
