@@ -34,13 +34,6 @@ render: ## [SCENE=file.json] [ARGS="--spp 16"] draws the demo scenes into build/
 	@.setup/setup.sh
 	@$(MAKE) render-scenes
 
-render-scenes: $(program) build/meshes/done
-	@mkdir -p build/out
-	@for scene in $(SCENE); do \
-	    name=$$(basename $$scene .json); \
-	    $(program) $$scene -o build/out/$$name.exr --png build/out/$$name.png $(ARGS) || exit; \
-	done
-
 test: ## every test: format, C (Unity, also with sanitizers), Python, end to end
 	@.setup/setup.sh
 	@$(MAKE) check-format
@@ -81,5 +74,5 @@ objects: $(objects)
 clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
-.PHONY: help setup build render render-scenes test format check-format handout grade kit objects \
+.PHONY: help setup build render test format check-format handout grade kit objects \
     clean

@@ -88,7 +88,7 @@ test_programs := $(patsubst %.c,$(testdir)/%,$(tests))
 
 $(testdir)/%: %.c $(filter-out $(objdir)/main.o,$(objects)) $(unity)/unity.c
 	@mkdir -p $(@D)
-	$(quiet_cc) $(CC) $(filter-out -Wpedantic -Werror,$(cflags)) -isystem $(unity) -MMD -MP \
+	$(quiet_cc) $(CC) $(filter-out -Wpedantic -Werror,$(cflags)) -isystem $(unity) -DUNITY_INCLUDE_DOUBLE -MMD -MP \
 	    -MF $@.d $< $(unity)/unity.c $(filter %.o,$^) $(ldlibs) -o $@
 
 unit-tests: $(test_programs)
@@ -101,13 +101,21 @@ unit-tests: $(test_programs)
 compile_commands.json: $(stamp) src/build.mk
 	@{ printf '['; comma=''; for file in $(sources) $(tests); do \
 	    printf '%s\n{"directory": "%s", "file": "%s", "command": "%s -c %s"}' "$$comma" \
-	        "$(CURDIR)" "$$file" '$(CC) $(filter-out -flto%,$(cflags)) -isystem $(unity)' "$$file"; \
+	        "$(CURDIR)" "$$file" '$(CC) $(filter-out -flto%,$(cflags)) -isystem $(unity) -DUNITY_INCLUDE_DOUBLE' "$$file"; \
 	    comma=','; done; printf '\n]\n'; } > $@.new
 	@mv $@.new $@
 
 build/meshes/done: scenes/make_meshes.py
 	@python3 scenes/make_meshes.py build/meshes
 	@touch $@
+
+# SCENE and ARGS are the caller's.
+render-scenes: $(program) build/meshes/done
+	@mkdir -p build/out
+	@for scene in $(SCENE); do \
+	    name=$$(basename $$scene .json); \
+	    $(program) $$scene -o build/out/$$name.exr --png build/out/$$name.png $(ARGS) || exit; \
+	done
 
 # V=1 shows the commands themselves.
 ifndef V
@@ -116,5 +124,5 @@ ifndef V
 endif
 
 FORCE:
-.PHONY: FORCE unit-tests
+.PHONY: FORCE unit-tests render-scenes
 -include $(objects:.o=.d) $(test_programs:=.d)

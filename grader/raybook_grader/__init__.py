@@ -1,0 +1,1 @@
+"""Raybook's grader: judges submissions to the course and weaves its book."""
