@@ -12,20 +12,26 @@
 #include "accel/accel.h"
 #include "base/counters.h"
 #include "base/error.h"
-#include "lights/point_light.h"
+#include "lights/light.h"
+#include "lights/selection.h"
 #include "materials/material.h"
 #include "scene/settings.h"
 #include "shapes/mesh.h"
+#include "shapes/rect.h"
 #include "shapes/sphere.h"
 #include "textures/texture.h"
 
-enum object_kind { OBJECT_MESH, OBJECT_SPHERE };
+enum object_kind { OBJECT_MESH, OBJECT_SPHERE, OBJECT_RECT };
 
+/* material NULL: the object does not reflect (a light may be so). light < 0: it
+ * does not emit; otherwise the index of its area light. */
 struct object {
     enum object_kind kind;
     struct mesh mesh;     /* OBJECT_MESH, in world space */
     struct sphere sphere; /* OBJECT_SPHERE */
+    struct rect rect;     /* OBJECT_RECT */
     const struct material *material;
+    int32_t light;
 };
 
 /* One thing that a ray can hit, in the order in which leaves name it, with a
@@ -42,15 +48,21 @@ struct scene {
     struct integrator_settings integrator;
 
     struct texture *textures;
+    uint32_t texture_count;
     struct material *materials;
     struct object *objects;
     uint32_t object_count;
-    struct point_light *lights;
+    struct light *lights;
     uint32_t light_count;
+    int32_t environment; /* index of the environment light; < 0: none */
+    struct image environment_image;
 
-    struct primitive *primitives; /* from scene_prepare on */
+    /* from scene_prepare on */
+    struct primitive *primitives;
     uint32_t primitive_count;
     struct accel accel;
+    float radius; /* of a sphere that holds everything */
+    struct light_table light_table;
 };
 
 /* Where a ray met something. Ask scene_surface for more. */
@@ -69,10 +81,15 @@ bool scene_prepare(struct scene *scene, enum accel_kind kind,
 bool scene_nearest(const struct scene *scene, const ray *r,
                    struct scene_hit *hit);
 
-/* The surface at a hit of this ray, and its material. */
+/* The surface at a hit of this ray, and the object that it belongs to. */
 struct surface scene_surface(const struct scene *scene, const ray *r,
                              const struct scene_hit *hit,
-                             const struct material **material);
+                             const struct object **object);
+
+/* Is anything in this direction, however far? The query starts off the
+ * surface. */
+bool scene_direction_blocked(const struct scene *scene,
+                             const struct surface *s, vec3 direction);
 
 /* Is the straight way from the surface to the point blocked? The query starts
  * off the surface and ends at the point: it cannot hit the surface that it
