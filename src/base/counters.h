@@ -11,6 +11,7 @@
 struct counters {
     uint64_t camera_rays;    /* rays that start at the camera */
     uint64_t specular_rays;  /* continued through glass or by a mirror */
+    uint64_t bounce_rays;    /* continued by chance from a rough surface */
     uint64_t shadow_rays;    /* any-hit queries towards a light */
     uint64_t boxes_tested;   /* ray-box tests */
     uint64_t leaves_visited; /* leaf ranges handed to the primitive test */

@@ -21,10 +21,37 @@ struct camera camera_make(const struct camera_settings *settings,
     return c;
 }
 
-ray camera_ray(const struct camera *c, vec2 place)
+/* Not of length one. */
+static vec3 direction_through(const struct camera *c, vec2 place)
 {
     float x = 2.0f * place.x / (float)c->width - 1.0f;
     float y = 2.0f * place.y / (float)c->height - 1.0f;
-    vec3 d = vec3_step(vec3_step(c->forward, x, c->right), y, c->down);
+    return vec3_step(vec3_step(c->forward, x, c->right), y, c->down);
+}
+
+ray camera_ray(const struct camera *c, vec2 place)
+{
+    vec3 d = direction_through(c, place);
     return ray_make(c->eye, vec3_normalize(d), 0.0f, INFINITY);
+}
+
+/* The derivative of v / |v| when v changes by dv: what of dv is at right
+ * angles to v, over |v|. */
+static vec3 normalized_change(vec3 v, vec3 dv)
+{
+    float length2 = vec3_dot(v, v);
+    vec3 across = vec3_step(dv, -vec3_dot(v, dv) / length2, v);
+    return vec3_scale(across, 1.0f / sqrtf(length2));
+}
+
+struct ray_differential camera_differential(const struct camera *c, vec2 place)
+{
+    struct ray_differential d;
+    vec3 v = direction_through(c, place);
+    vec3 one_right = vec3_scale(c->right, 2.0f / (float)c->width);
+    vec3 one_down = vec3_scale(c->down, 2.0f / (float)c->height);
+    d.origin_dx = d.origin_dy = vec3_make(0.0f, 0.0f, 0.0f);
+    d.direction_dx = normalized_change(v, one_right);
+    d.direction_dy = normalized_change(v, one_down);
+    return d;
 }

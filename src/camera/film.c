@@ -3,19 +3,48 @@
 
 #include "base/memory.h"
 
-struct film film_make(int width, int height)
+const char *const aov_channel_names[AOV_CHANNELS] = {
+    "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z",
+    "depth.Z",  "uv.U",     "uv.V",     "bvh_cost", "mip_level"};
+
+struct film film_make(int width, int height, bool with_aovs)
 {
-    struct film film = {width, height, NULL};
-    film.pixels =
-        mem_alloc((size_t)width * (size_t)height, sizeof *film.pixels);
+    struct film film = {width, height, NULL, NULL};
+    size_t count = (size_t)width * (size_t)height;
+    film.pixels = mem_alloc(count, sizeof *film.pixels);
+    if (with_aovs)
+        film.aovs = mem_alloc(count, AOV_CHANNELS * sizeof *film.aovs);
     return film;
 }
 
-static rgb mean(const struct film_pixel *p)
+void film_add(struct film_pixel *pixel, rgb radiance, float weight)
 {
-    double k = p->samples > 0 ? 1.0 / p->samples : 0.0;
+    double w = (double)weight, luminance = (double)rgb_luminance(radiance);
+    pixel->sum[0] += w * (double)radiance.r;
+    pixel->sum[1] += w * (double)radiance.g;
+    pixel->sum[2] += w * (double)radiance.b;
+    pixel->weight += w;
+    pixel->samples++;
+    double from_mean = luminance - pixel->mean;
+    pixel->mean += from_mean / pixel->samples;
+    pixel->spread += from_mean * (luminance - pixel->mean);
+}
+
+/* Weights below zero (Mitchell) may sum to nearly nothing when the samples are
+ * few; the pixel's value is then taken from their number. */
+static rgb value(const struct film_pixel *p)
+{
+    double weight = p->weight;
+    if (!(weight > 0.1 * p->samples))
+        weight = p->samples;
+    double k = p->samples > 0 ? 1.0 / weight : 0.0;
     return rgb_make((float)(p->sum[0] * k), (float)(p->sum[1] * k),
                     (float)(p->sum[2] * k));
+}
+
+static size_t index_of(const struct film *film, int x, int y)
+{
+    return (size_t)y * (size_t)film->width + (size_t)x;
 }
 
 struct image film_develop(const struct film *film, int x0, int y0, int x1,
@@ -25,13 +54,29 @@ struct image film_develop(const struct film *film, int x0, int y0, int x1,
     rgb *out = image.pixels;
     for (int y = y0; y < y1; y++)
         for (int x = x0; x < x1; x++)
-            *out++ = mean(
-                &film->pixels[(size_t)y * (size_t)film->width + (size_t)x]);
+            *out++ = value(&film->pixels[index_of(film, x, y)]);
     return image;
+}
+
+float film_aov(const struct film *film, int x, int y, int channel)
+{
+    size_t i = index_of(film, x, y);
+    uint32_t samples = film->pixels[i].samples;
+    double sum = film->aovs[AOV_CHANNELS * i + (size_t)channel];
+    return samples > 0 ? (float)(sum / samples) : 0.0f;
+}
+
+float film_variance(const struct film *film, int x, int y)
+{
+    const struct film_pixel *p = &film->pixels[index_of(film, x, y)];
+    double n = p->samples;
+    return n > 1.0 ? (float)(p->spread / (n - 1.0) / n) : 0.0f;
 }
 
 void film_free(struct film *film)
 {
     mem_free(film->pixels);
+    mem_free(film->aovs);
     film->pixels = NULL;
+    film->aovs = NULL;
 }

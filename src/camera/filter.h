@@ -18,7 +18,7 @@ enum { FILTER_CELLS = 512 };
 struct filter {
     enum filter_kind kind;
     float radius;
-    float alpha, b, c; /* gaussian; mitchell */
+    float alpha, b, c;           /* gaussian; mitchell */
     float cdf[FILTER_CELLS + 1]; /* of |f|, over [-radius, radius] */
     float mass;                  /* integral of |f| over integral of f */
 };

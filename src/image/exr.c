@@ -4,6 +4,7 @@
 #include <OpenEXR/openexr.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "image/replace.h"
 
@@ -18,60 +19,74 @@ static void silent(exr_const_context_t file, exr_result_t code,
     (void)file, (void)code, (void)message;
 }
 
-static exr_result_t add_channels(exr_context_t file, int part)
+/* All that goes into the file. */
+struct contents {
+    int width, height;
+    const struct exr_channel *channels;
+    int channel_count;
+    const struct exr_attribute *attributes;
+    int attribute_count;
+};
+
+static exr_result_t add_channels(exr_context_t file, int part,
+                                 const struct contents *c)
 {
-    static const char *const names[3] = {"B", "G", "R"};
     exr_result_t result = EXR_ERR_SUCCESS;
-    for (int i = 0; i < 3 && result == EXR_ERR_SUCCESS; i++)
-        result =
-            (exr_result_t)exr_add_channel(file, part, names[i], EXR_PIXEL_FLOAT,
-                                          EXR_PERCEPTUALLY_LINEAR, 1, 1);
+    for (int i = 0; i < c->channel_count && result == EXR_ERR_SUCCESS; i++)
+        result = (exr_result_t)exr_add_channel(file, part, c->channels[i].name,
+                                               EXR_PIXEL_FLOAT,
+                                               EXR_PERCEPTUALLY_LINEAR, 1, 1);
     return result;
 }
 
-static exr_result_t write_header(exr_context_t file, int width, int height,
-                                 const struct exr_attribute attributes[],
-                                 int attribute_count)
+static exr_result_t write_header(exr_context_t file, const struct contents *c)
 {
     int part;
     exr_result_t result =
         exr_add_part(file, "image", EXR_STORAGE_SCANLINE, &part);
     if (result == EXR_ERR_SUCCESS)
-        result = exr_initialize_required_attr_simple(file, part, width, height,
-                                                     EXR_COMPRESSION_ZIP);
+        result = exr_initialize_required_attr_simple(
+            file, part, c->width, c->height, EXR_COMPRESSION_ZIP);
     if (result == EXR_ERR_SUCCESS)
-        result = add_channels(file, part);
+        result = add_channels(file, part, c);
     if (result == EXR_ERR_SUCCESS)
         result = exr_set_zip_compression_level(file, part, ZIP_LEVEL);
-    for (int i = 0; i < attribute_count && result == EXR_ERR_SUCCESS; i++)
-        result = exr_attr_set_string(file, part, attributes[i].name,
-                                     attributes[i].value);
+    for (int i = 0; i < c->attribute_count && result == EXR_ERR_SUCCESS; i++)
+        result = exr_attr_set_string(file, part, c->attributes[i].name,
+                                     c->attributes[i].value);
     if (result == EXR_ERR_SUCCESS)
         result = exr_write_header(file);
     return result;
 }
 
-/* Points each of the encoder's channels into the image. Channels come sorted
- * by name, and the pointers must be set anew for every chunk. */
-static void point_channels(exr_encode_pipeline_t *encoder,
-                           const struct image *image, int first_row)
+static const struct exr_channel *find_channel(const struct contents *c,
+                                              const char *name)
 {
-    const rgb *row = &image->pixels[(size_t)first_row * (size_t)image->width];
+    const struct exr_channel *channel = c->channels;
+    while (strcmp(channel->name, name) != 0)
+        channel++; /* it is there: the file's channels are ours */
+    return channel;
+}
+
+/* Points each of the encoder's channels to our values. The file's channels are
+ * sorted by name, and the pointers must be set anew for every chunk. */
+static void point_channels(exr_encode_pipeline_t *encoder,
+                           const struct contents *c, int first_row)
+{
     for (int i = 0; i < encoder->channel_count; i++) {
-        exr_coding_channel_info_t *channel = &encoder->channels[i];
-        char name = channel->channel_name[0];
-        const float *from = name == 'R'   ? &row->r
-                            : name == 'G' ? &row->g
-                                          : &row->b;
-        channel->encode_from_ptr = (const uint8_t *)from;
-        channel->user_pixel_stride = (int32_t)sizeof(rgb);
-        channel->user_line_stride = (int32_t)sizeof(rgb) * image->width;
-        channel->user_bytes_per_element = (int16_t)sizeof(float);
-        channel->user_data_type = EXR_PIXEL_FLOAT;
+        exr_coding_channel_info_t *to = &encoder->channels[i];
+        const struct exr_channel *from = find_channel(c, to->channel_name);
+        size_t skipped = (size_t)first_row * (size_t)c->width;
+        to->encode_from_ptr =
+            (const uint8_t *)(from->values + skipped * (size_t)from->stride);
+        to->user_pixel_stride = from->stride * (int32_t)sizeof(float);
+        to->user_line_stride = to->user_pixel_stride * c->width;
+        to->user_bytes_per_element = (int16_t)sizeof(float);
+        to->user_data_type = EXR_PIXEL_FLOAT;
     }
 }
 
-static exr_result_t write_chunk(exr_context_t file, const struct image *image,
+static exr_result_t write_chunk(exr_context_t file, const struct contents *c,
                                 int first_row, exr_encode_pipeline_t *encoder)
 {
     exr_chunk_info_t chunk;
@@ -84,7 +99,7 @@ static exr_result_t write_chunk(exr_context_t file, const struct image *image,
                    : exr_encoding_update(file, 0, &chunk, encoder);
     if (result != EXR_ERR_SUCCESS)
         return result;
-    point_channels(encoder, image, first_row);
+    point_channels(encoder, c, first_row);
     if (first)
         result = exr_encoding_choose_default_routines(file, 0, encoder);
     if (result == EXR_ERR_SUCCESS)
@@ -92,20 +107,18 @@ static exr_result_t write_chunk(exr_context_t file, const struct image *image,
     return result;
 }
 
-static exr_result_t write_pixels(exr_context_t file, const struct image *image)
+static exr_result_t write_pixels(exr_context_t file, const struct contents *c)
 {
     int32_t rows;
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_result_t result = exr_get_scanlines_per_chunk(file, 0, &rows);
-    for (int y = 0; y < image->height && result == EXR_ERR_SUCCESS; y += rows)
-        result = write_chunk(file, image, y, &encoder);
+    for (int y = 0; y < c->height && result == EXR_ERR_SUCCESS; y += rows)
+        result = write_chunk(file, c, y, &encoder);
     exr_encoding_destroy(file, &encoder);
     return result;
 }
 
-static exr_result_t write_file(const char *path, const struct image *image,
-                               const struct exr_attribute attributes[],
-                               int attribute_count)
+static exr_result_t write_file(const char *path, const struct contents *c)
 {
     exr_context_t file;
     exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
@@ -114,26 +127,38 @@ static exr_result_t write_file(const char *path, const struct image *image,
         exr_start_write(&file, path, EXR_WRITE_FILE_DIRECTLY, &options);
     if (result != EXR_ERR_SUCCESS)
         return result;
-    result = write_header(file, image->width, image->height, attributes,
-                          attribute_count);
+    result = write_header(file, c);
     if (result == EXR_ERR_SUCCESS)
-        result = write_pixels(file, image);
+        result = write_pixels(file, c);
     exr_result_t closed = exr_finish(&file);
     return result != EXR_ERR_SUCCESS ? result : closed;
+}
+
+bool exr_write_channels(const char *path, int width, int height,
+                        const struct exr_channel channels[], int channel_count,
+                        const struct exr_attribute attributes[],
+                        int attribute_count, struct error *err)
+{
+    const struct contents c = {width,         height,     channels,
+                               channel_count, attributes, attribute_count};
+    struct replacement aside;
+    if (!replace_begin(&aside, path, err))
+        return false;
+    exr_result_t result = write_file(aside.temporary, &c);
+    if (result == EXR_ERR_SUCCESS)
+        return replace_commit(&aside, err);
+    replace_abandon(&aside);
+    return error_set(err, "%s: cannot write the image: %s", path,
+                     exr_get_default_error_message(result));
 }
 
 bool exr_write(const char *path, const struct image *image,
                const struct exr_attribute attributes[], int attribute_count,
                struct error *err)
 {
-    struct replacement aside;
-    if (!replace_begin(&aside, path, err))
-        return false;
-    exr_result_t result =
-        write_file(aside.temporary, image, attributes, attribute_count);
-    if (result == EXR_ERR_SUCCESS)
-        return replace_commit(&aside, err);
-    replace_abandon(&aside);
-    return error_set(err, "%s: cannot write the image: %s", path,
-                     exr_get_default_error_message(result));
+    const struct exr_channel channels[] = {{"R", &image->pixels->r, 3},
+                                           {"G", &image->pixels->g, 3},
+                                           {"B", &image->pixels->b, 3}};
+    return exr_write_channels(path, image->width, image->height, channels, 3,
+                              attributes, attribute_count, err);
 }

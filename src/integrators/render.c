@@ -8,7 +8,9 @@
 #include "camera/camera.h"
 #include "camera/filter.h"
 #include "integrators/intersection_test.h"
-#include "sampling/sampler.h"
+#include "integrators/path.h"
+#include "integrators/tracer.h"
+#include "integrators/views.h"
 
 /* Small enough to share evenly between threads, large enough that handing
  * them out costs nothing. */
@@ -18,42 +20,78 @@ struct job {
     const struct scene *scene;
     const struct render_options *options;
     struct camera camera;
+    struct filter filter;
     struct film *film;
     int first_sample, last_sample; /* of this pass; the last is not in it */
 };
 
-static rgb radiance(const struct scene *scene, const ray *r)
+static rgb view(const struct tracer *t, const ray *r,
+                const struct ray_differential *d)
 {
-    switch (scene->integrator.kind) {
-    case INTEGRATOR_INTERSECTION_TEST:
-        break;
-    }
-    return intersection_test_radiance(scene, r);
+    struct first_hit h = first_hit(t, r, d);
+    return view_color(t->scene->integrator.kind, &h);
 }
 
-static void render_sample(const struct job *job, int x, int y, int sample,
-                          struct film_pixel *pixel)
+static rgb radiance(const struct tracer *t, const ray *r,
+                    const struct ray_differential *d)
 {
-    const struct scene *scene = job->scene;
-    uint64_t index = (uint64_t)y * (uint64_t)job->film->width + (uint64_t)x;
-    struct sampler sampler =
-        sampler_start(scene->integrator.seed, index, (uint64_t)sample);
-    vec2 offset =
-        filter_box_sample(scene->film.filter_radius, sampler_2d(&sampler));
+    switch (t->scene->integrator.kind) {
+    case INTEGRATOR_INTERSECTION_TEST:
+        return intersection_test_radiance(t, *r, *d);
+    case INTEGRATOR_DIRECT:
+        return direct_radiance(t, *r, *d);
+    case INTEGRATOR_PATH:
+        return path_radiance(t, *r, *d);
+    default:
+        return view(t, r, d);
+    }
+}
+
+static void add_aovs(const struct tracer *t, const ray *r,
+                     const struct ray_differential *d, double *sums)
+{
+    struct first_hit h = first_hit(t, r, d);
+    const float values[AOV_CHANNELS] = {
+        h.albedo.r, h.albedo.g, h.albedo.b, h.normal.x, h.normal.y, h.normal.z,
+        h.depth,    h.uv.x,     h.uv.y,     h.bvh_cost, h.mip_level};
+    for (int i = 0; i < AOV_CHANNELS; i++)
+        sums[i] += (double)values[i];
+}
+
+static struct sampler start_sample(const struct job *job, size_t pixel,
+                                   int sample)
+{
+    const struct integrator_settings *s = &job->scene->integrator;
+    return sampler_start(s->sampler, s->seed, pixel, (uint32_t)sample,
+                         (uint32_t)s->spp);
+}
+
+static void render_sample(const struct job *job, int x, int y, int sample)
+{
+    size_t pixel = (size_t)y * (size_t)job->film->width + (size_t)x;
+    struct sampler sampler = start_sample(job, pixel, sample);
+    struct tracer t = {job->scene, &sampler, job->options->log};
+    float weight;
+    vec2 offset = filter_sample(&job->filter, sampler_2d(&sampler), &weight);
     vec2 place =
         vec2_make((float)x + 0.5f + offset.x, (float)y + 0.5f + offset.y);
     ray r = camera_ray(&job->camera, place);
+    struct ray_differential d = camera_differential(&job->camera, place);
     counters_mine.camera_rays++;
-    film_add(pixel, radiance(scene, &r));
+    path_log_camera(t.log, (uint32_t)sample, place, &r);
+    rgb found = radiance(&t, &r, &d);
+    path_log_result(t.log, found);
+    film_add(&job->film->pixels[pixel], found, weight);
+    t.log = NULL;
+    if (job->film->aovs != NULL)
+        add_aovs(&t, &r, &d, &job->film->aovs[AOV_CHANNELS * pixel]);
     counters_mine.samples++;
 }
 
 static void render_pixel(const struct job *job, int x, int y)
 {
-    size_t index = (size_t)y * (size_t)job->film->width + (size_t)x;
-    struct film_pixel *pixel = &job->film->pixels[index];
     for (int s = job->first_sample; s < job->last_sample; s++)
-        render_sample(job, x, y, s, pixel);
+        render_sample(job, x, y, s);
 }
 
 static int smaller(int a, int b)
@@ -131,12 +169,18 @@ static int next_pass(int first_sample, int spp, bool whole_passes)
 bool render(const struct scene *scene, const struct render_options *options,
             struct film *film, struct counters *total)
 {
-    struct job job = {scene, options, camera_make(&scene->camera, &scene->film),
-                      film,  0,       0};
+    struct job job = {scene,
+                      options,
+                      camera_make(&scene->camera, &scene->film),
+                      filter_make(&scene->film),
+                      film,
+                      0,
+                      0};
     struct progress progress = {0, false};
 #ifdef _OPENMP
-    if (options->threads > 0)
-        omp_set_num_threads(options->threads);
+    int threads = options->log != NULL ? 1 : options->threads;
+    if (threads > 0)
+        omp_set_num_threads(threads);
 #endif
     while (job.last_sample < scene->integrator.spp && !progress.stopped) {
         job.first_sample = job.last_sample;

@@ -7,6 +7,7 @@
 
 #include "base/counters.h"
 #include "camera/film.h"
+#include "integrators/path_log.h"
 #include "scene/scene.h"
 
 /* From (x0, y0) up to but without (x1, y1), in pixels of the whole film. */
@@ -18,6 +19,10 @@ struct render_options {
     struct window window;
     int threads; /* 0: as many as there are processors */
 
+    /* Where to tell the paths of the window's pixels (then with one thread);
+     * NULL: nowhere. */
+    struct path_log *log;
+
     /* Asked before each tile, from any one thread at a time: true ends the
      * rendering early. */
     bool (*stop)(void *user, uint64_t samples_done);
@@ -27,8 +32,8 @@ struct render_options {
     void *user;
 };
 
-/* Adds the scene's samples to the film (of the scene's resolution, empty) and
- * the work done to *total.
+/* Adds the scene's samples to the film (of the scene's resolution, empty; its
+ * extra channels too if it has them) and the work done to *total.
  *
  * A pixel's value depends on scene, seed, pixel and sample index only: the
  * same bits for any number of threads, any window and any order. The samples

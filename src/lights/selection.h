@@ -15,9 +15,8 @@ struct light_table {
 
 /* by_power false: every light is as likely. True: in proportion to
  * light_power, but none that has any power has probability 0. */
-struct light_table light_table_make(const struct light lights[],
-                                    uint32_t count, bool by_power,
-                                    float scene_radius);
+struct light_table light_table_make(const struct light lights[], uint32_t count,
+                                    bool by_power, float scene_radius);
 
 /* Picks a light with a number in [0, 1). Returns its index, and in
  * *probability how likely that was, above 0. count must not be 0. */

@@ -22,9 +22,9 @@ enum material_kind {
 /* Textures are owned by the scene. */
 struct material {
     enum material_kind kind;
-    const struct texture *albedo; /* diffuse; factor of the rough conductor */
-    bool two_sided;               /* diffuse */
-    float eta;                    /* refraction, glass: inside over outside */
+    const struct texture *albedo;   /* diffuse; factor of the rough conductor */
+    bool two_sided;                 /* diffuse */
+    float eta;                      /* refraction, glass: inside over outside */
     rgb reflectance, transmittance; /* glass: factors of the two parts */
     float alpha_x, alpha_y;         /* rough conductor: GGX roughness */
     rgb conductor_eta, conductor_k; /* complex index, relative to outside */
@@ -53,8 +53,7 @@ rgb material_eval(const struct material *m, const struct surface *s,
 /* Picks an incoming direction. random: three numbers in [0, 1). false: the
  * light is absorbed (or the pick failed: its share counts as black). */
 bool material_sample(const struct material *m, const struct surface *s,
-                     vec3 outgoing, const float random[3],
-                     struct scatter *out);
+                     vec3 outgoing, const float random[3], struct scatter *out);
 
 /* The density with which material_sample picks incoming. */
 float material_pdf(const struct material *m, const struct surface *s,

@@ -16,6 +16,7 @@ static void add_rays(cJSON *root, const struct statistics *s)
     cJSON *rays = cJSON_AddObjectToObject(root, "rays");
     cJSON_AddNumberToObject(rays, "camera", (double)c->camera_rays);
     cJSON_AddNumberToObject(rays, "specular", (double)c->specular_rays);
+    cJSON_AddNumberToObject(rays, "bounce", (double)c->bounce_rays);
     cJSON_AddNumberToObject(rays, "shadow", (double)c->shadow_rays);
 }
 

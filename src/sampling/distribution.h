@@ -1,4 +1,7 @@
-/* distribution.h - picking by weight: tables over an interval, a square. */
+/* distribution.h - picking by weight: tables over an interval, a square.
+ *
+ * Tables are in double: after a very bright cell the small steps of the dark
+ * ones would be lost in float. */
 #ifndef RAYBOOK_SAMPLING_DISTRIBUTION_H
 #define RAYBOOK_SAMPLING_DISTRIBUTION_H
 
@@ -11,7 +14,7 @@
  * distribution owns its table. */
 struct distribution_1d {
     uint32_t count;
-    float *cdf; /* count + 1 values from 0 to 1 */
+    double *cdf;  /* count + 1 values from 0 to 1 */
     double total; /* sum of the weights */
 };
 
@@ -20,8 +23,9 @@ struct distribution_1d {
 struct distribution_1d distribution_1d_make(const float weights[],
                                             uint32_t count);
 
-/* Picks a cell with a number in [0, 1). *remainder (may be NULL) is where in
- * the cell the number fell, in [0, 1): a fresh random number. */
+/* Picks a cell with a number in [0, 1); never one of weight 0. *remainder (may
+ * be NULL) is where in the cell the number fell, in [0, 1): a fresh random
+ * number. count must not be 0. */
 uint32_t distribution_1d_sample(const struct distribution_1d *d, float random,
                                 float *remainder);
 
@@ -34,12 +38,18 @@ void distribution_1d_free(struct distribution_1d *d);
 /* width x height cells over the unit square, row by row. */
 struct distribution_2d {
     uint32_t width, height;
-    struct distribution_1d rows;     /* which row */
+    struct distribution_1d rows;     /* which row; its total is the sum of
+                                        all weights */
     struct distribution_1d *columns; /* which column, for each row */
 };
 
 struct distribution_2d distribution_2d_make(const float weights[],
                                             uint32_t width, uint32_t height);
+
+/* Picks a cell: random.y decides the row, random.x the column. *remainder is
+ * where in the cell they fell, in [0, 1) x [0, 1). */
+void distribution_2d_pick(const struct distribution_2d *d, vec2 random,
+                          uint32_t *column, uint32_t *row, vec2 *remainder);
 
 /* Picks a point of the unit square; returns its density there (over the
  * square, mean 1). */

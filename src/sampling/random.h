@@ -19,21 +19,33 @@ static inline uint64_t random_mix(uint64_t z)
     return z ^ (z >> 31);
 }
 
+/* The key that all samples of a pixel share. */
+static inline uint64_t random_pixel_key(uint64_t seed, uint64_t pixel)
+{
+    uint64_t key = random_mix(seed + UINT64_C(0x9e3779b97f4a7c15));
+    return random_mix(key ^ (pixel + UINT64_C(0xd1b54a32d192ed03)));
+}
+
 /* The key of one sample's stream. */
 static inline uint64_t random_key(uint64_t seed, uint64_t pixel,
                                   uint64_t sample)
 {
-    uint64_t key = random_mix(seed + UINT64_C(0x9e3779b97f4a7c15));
-    key = random_mix(key ^ (pixel + UINT64_C(0xd1b54a32d192ed03)));
+    uint64_t key = random_pixel_key(seed, pixel);
     return random_mix(key ^ (sample + UINT64_C(0x8cb92ba72f3d8dd7)));
+}
+
+/* 32 random bits: number `dimension` of the stream. */
+static inline uint32_t random_bits(uint64_t key, uint32_t dimension)
+{
+    uint64_t step = UINT64_C(0x9e3779b97f4a7c15) * (dimension + UINT64_C(1));
+    return (uint32_t)(random_mix(key + step) >> 32);
 }
 
 /* Number `dimension` of the stream: uniform in [0, 1), a multiple of 2^-24,
  * so that 1 is never reached by rounding. */
 static inline float random_float(uint64_t key, uint32_t dimension)
 {
-    uint64_t step = UINT64_C(0x9e3779b97f4a7c15) * (dimension + UINT64_C(1));
-    return (float)(random_mix(key + step) >> 40) * 0x1p-24f;
+    return (float)(random_bits(key, dimension) >> 8) * 0x1p-24f;
 }
 
 #endif

@@ -144,6 +144,17 @@ bool json_is_list(struct json_reader *j, const cJSON *node)
     return cJSON_IsArray(node) || json_unexpected(j, node, "a list [ ... ]");
 }
 
+bool json_is_table(struct json_reader *j, const cJSON *node)
+{
+    if (!cJSON_IsObject(node))
+        return json_unexpected(j, node, "an object of named entries");
+    for (const cJSON *m = node->child; m != NULL; m = m->next)
+        if (twice(node, m))
+            return json_fault(j, m, "the name \"%s\" is there twice",
+                              m->string);
+    return true;
+}
+
 int json_name(struct json_reader *j, const cJSON *node,
               const char *const names[])
 {
@@ -213,6 +224,14 @@ static bool read_numbers(struct json_reader *j, const cJSON *node, int count,
     for (const cJSON *item = node->child; item != NULL; item = item->next)
         out[i++] = json_float(j, item, range, 0.0f);
     return json_fine(j);
+}
+
+vec2 json_vec2(struct json_reader *j, const cJSON *node, vec2 otherwise)
+{
+    float v[2];
+    if (!read_numbers(j, node, 2, "a list of 2 numbers", any_float, v))
+        return otherwise;
+    return vec2_make(v[0], v[1]);
 }
 
 vec3 json_vec3(struct json_reader *j, const cJSON *node, vec3 otherwise)

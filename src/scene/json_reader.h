@@ -65,6 +65,9 @@ bool json_keys(struct json_reader *j, const cJSON *node,
 
 bool json_is_list(struct json_reader *j, const cJSON *node);
 
+/* Is node an object of named entries, no name there twice? */
+bool json_is_table(struct json_reader *j, const cJSON *node);
+
 /* Which of the NULL-terminated names the string is; 0 after a fault. */
 int json_name(struct json_reader *j, const cJSON *node,
               const char *const names[]);
@@ -79,6 +82,7 @@ int json_integer(struct json_reader *j, const cJSON *node,
 bool json_bool(struct json_reader *j, const cJSON *node, bool otherwise);
 const char *json_string(struct json_reader *j, const cJSON *node,
                         const char *otherwise);
+vec2 json_vec2(struct json_reader *j, const cJSON *node, vec2 otherwise);
 vec3 json_vec3(struct json_reader *j, const cJSON *node, vec3 otherwise);
 struct transform json_transform(struct json_reader *j, const cJSON *node);
 

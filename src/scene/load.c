@@ -32,9 +32,28 @@ int find_named(struct json_reader *j, const cJSON *members, const cJSON *node,
     return found;
 }
 
-void not_supported(struct json_reader *j, const cJSON *node, const char *what)
+char *resolve_path(const struct json_reader *j, const char *path)
 {
-    json_fault(j, node, "%s: not supported by this version yet", what);
+    const char *slash = strrchr(j->file, '/');
+    size_t folder = slash ? (size_t)(slash - j->file) + 1 : 0;
+    if (path[0] == '/')
+        folder = 0;
+    char *full = mem_alloc(folder + strlen(path) + 1, 1);
+    memcpy(full, j->file, folder);
+    strcpy(full + folder, path);
+    return full;
+}
+
+int read_type(struct json_reader *j, const cJSON *node,
+              const char *const names[])
+{
+    if (!cJSON_IsObject(node)) {
+        json_unexpected(j, node, "an object { ... }");
+        return -1;
+    }
+    const cJSON *type = json_require(j, node, "type");
+    int kind = json_name(j, type, names);
+    return json_fine(j) ? kind : -1;
 }
 
 static void load_all(struct json_reader *j, struct scene *scene)
@@ -55,8 +74,8 @@ static void load_all(struct json_reader *j, struct scene *scene)
     load_materials(j, json_get(root, "textures"), json_get(root, "materials"),
                    scene);
     load_lights(j, json_get(root, "lights"), scene);
-    if (json_get(root, "environment_map") != NULL)
-        not_supported(j, json_get(root, "environment_map"), "environment maps");
+    load_environment(j, json_get(root, "textures"),
+                     json_get(root, "environment_map"), scene);
     load_objects(j, json_get(root, "materials"), json_get(root, "objects"),
                  scene);
 }
@@ -98,6 +117,7 @@ bool scene_load(const char *path, const char *override, struct scene *out,
 {
     struct json_reader j;
     memset(out, 0, sizeof *out);
+    out->environment = -1;
     if (!json_open(&j, path, err))
         return false;
     if (override == NULL || merge_text(&j, override))

@@ -6,20 +6,6 @@
 #include "scene/load_parts.h"
 #include "scene/obj_reader.h"
 
-/* Paths are relative to the folder of the scene file. The caller owns the
- * answer. */
-static char *resolve(const char *scene_file, const char *path)
-{
-    const char *slash = strrchr(scene_file, '/');
-    size_t folder = slash ? (size_t)(slash - scene_file) + 1 : 0;
-    if (path[0] == '/')
-        folder = 0;
-    char *full = mem_alloc(folder + strlen(path) + 1, 1);
-    memcpy(full, scene_file, folder);
-    strcpy(full + folder, path);
-    return full;
-}
-
 /* First `transform`, then `translate`. */
 static struct transform load_placement(struct json_reader *j, const cJSON *node)
 {
@@ -52,7 +38,7 @@ static void load_mesh(struct json_reader *j, const cJSON *node,
     const char *name = json_string(j, path, "");
     if (!json_fine(j))
         return;
-    char *full = resolve(j->file, name);
+    char *full = resolve_path(j, name);
     struct error fault = {""};
     if (obj_read(full, &out->mesh, &fault)) {
         mesh_transform(&out->mesh, &to_world);
@@ -75,31 +61,52 @@ static void load_sphere(struct json_reader *j, const cJSON *node,
         json_float(j, json_require(j, node, "radius"), above_zero, 1.0f);
 }
 
+static void load_rect(struct json_reader *j, const cJSON *node,
+                      struct object *out)
+{
+    static const char *const keys[] = {
+        "type", "transform", "translate", "material_name", "light", NULL};
+    json_keys(j, node, keys);
+    struct transform to_world = load_placement(j, node);
+    out->rect = rect_make(&to_world);
+    if (!(isfinite(out->rect.area) && out->rect.area > 0.0f))
+        json_fault(j, node, "the transform leaves the rectangle no area");
+}
+
+/* An object that emits may do without a material: it does not reflect then. */
+static void load_surface(struct json_reader *j, const cJSON *materials,
+                         const cJSON *node, const struct scene *scene,
+                         struct object *out)
+{
+    const cJSON *name = json_get(node, "material_name");
+    if (name == NULL && json_get(node, "light") != NULL)
+        return;
+    name = json_require(j, node, "material_name");
+    int material = name ? find_named(j, materials, name, "material") : -1;
+    if (json_fine(j))
+        out->material = &scene->materials[material];
+}
+
 static void load_object(struct json_reader *j, const cJSON *materials,
-                        const cJSON *node, const struct scene *scene,
+                        const cJSON *node, struct scene *scene,
                         struct object *out)
 {
     static const char *const kinds[] = {"mesh", "sphere", "rect", NULL};
-    if (!cJSON_IsObject(node)) {
-        json_unexpected(j, node, "an object { ... }");
+    int kind = read_type(j, node, kinds);
+    out->light = -1;
+    if (kind < 0)
         return;
-    }
-    const cJSON *type = json_require(j, node, "type");
-    int kind = json_name(j, type, kinds);
-    if (kind > OBJECT_SPHERE)
-        not_supported(j, type, kinds[kind]);
-    if (json_get(node, "light") != NULL)
-        not_supported(j, json_get(node, "light"), "area lights");
-    const cJSON *name = json_require(j, node, "material_name");
-    int material = name ? find_named(j, materials, name, "material") : -1;
+    out->kind = (enum object_kind)kind;
+    load_surface(j, materials, node, scene, out);
     if (!json_fine(j))
         return;
-    out->material = &scene->materials[material];
-    out->kind = (enum object_kind)kind;
     if (out->kind == OBJECT_MESH)
         load_mesh(j, node, out);
-    else
+    else if (out->kind == OBJECT_SPHERE)
         load_sphere(j, node, out);
+    else
+        load_rect(j, node, out);
+    load_area_light(j, json_get(node, "light"), scene, out);
 }
 
 void load_objects(struct json_reader *j, const cJSON *materials,

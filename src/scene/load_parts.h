@@ -17,13 +17,24 @@ void load_camera(struct json_reader *j, const cJSON *node, struct scene *scene);
 void load_sampler(struct json_reader *j, const cJSON *node,
                   struct scene *scene);
 
-/* load_lights.c */
+/* load_lights.c; every kind of light ends up in scene->lights. */
 void load_lights(struct json_reader *j, const cJSON *node, struct scene *scene);
-void add_point_light(struct scene *scene, vec3 position, rgb flux);
+void load_environment(struct json_reader *j, const cJSON *textures,
+                      const cJSON *node, struct scene *scene);
 
-/* load_materials.c; textures come first, materials name them. */
+/* The light of an object: {"type": "area", "radiance": [r, g, b]}. */
+void load_area_light(struct json_reader *j, const cJSON *node,
+                     struct scene *scene, struct object *object);
+
+/* Room for one more light, all zero; its place may move with the next. */
+struct light *add_light(struct scene *scene, enum light_kind kind);
+
+/* load_textures.c */
 void load_textures(struct json_reader *j, const cJSON *node,
                    struct scene *scene);
+
+/* load_materials.c; textures is the scene file's member, which materials
+ * name. */
 void load_materials(struct json_reader *j, const cJSON *textures,
                     const cJSON *node, struct scene *scene);
 
@@ -36,7 +47,12 @@ void load_objects(struct json_reader *j, const cJSON *materials,
 int find_named(struct json_reader *j, const cJSON *members, const cJSON *node,
                const char *kind);
 
-/* A fault: the format has this, this program does not yet. */
-void not_supported(struct json_reader *j, const cJSON *node, const char *what);
+/* A path relative to the folder of the scene file; the caller owns it. */
+char *resolve_path(const struct json_reader *j, const char *path);
+
+/* Checks that node is an object with a "type" and returns which of the names
+ * it is; -1 after a fault. */
+int read_type(struct json_reader *j, const cJSON *node,
+              const char *const names[]);
 
 #endif

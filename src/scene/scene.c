@@ -33,6 +33,8 @@ static aabb primitive_box(const struct scene *scene, const struct primitive *p)
     const struct object *o = &scene->objects[p->object];
     if (o->kind == OBJECT_SPHERE)
         return sphere_bounds(&o->sphere);
+    if (o->kind == OBJECT_RECT)
+        return rect_bounds(&o->rect);
     aabb box = aabb_include(aabb_empty(), p->corners[0]);
     return aabb_include(aabb_include(box, p->corners[1]), p->corners[2]);
 }
@@ -53,6 +55,18 @@ static void build(struct scene *scene, enum accel_kind kind,
     mem_free(order);
 }
 
+/* The radius of a sphere around the box of everything; at least a little, so
+ * that an empty scene's lights have a power. */
+static float bounding_radius(const struct scene *scene,
+                             const struct primitive *listed)
+{
+    aabb box = aabb_empty();
+    for (uint32_t i = 0; i < scene->primitive_count; i++)
+        box = aabb_union(box, primitive_box(scene, &listed[i]));
+    float radius = 0.5f * vec3_length(vec3_sub(box.upper, box.lower));
+    return isfinite(radius) && radius > 0.0f ? radius : 1.0f;
+}
+
 bool scene_prepare(struct scene *scene, enum accel_kind kind, struct error *err)
 {
     uint64_t count = count_primitives(scene);
@@ -63,7 +77,11 @@ bool scene_prepare(struct scene *scene, enum accel_kind kind, struct error *err)
     struct primitive *listed = mem_alloc(count, sizeof *listed);
     list_primitives(scene, listed);
     build(scene, kind, listed);
+    scene->radius = bounding_radius(scene, listed);
     mem_free(listed);
+    bool by_power = scene->integrator.selection == SELECT_POWER;
+    scene->light_table = light_table_make(scene->lights, scene->light_count,
+                                          by_power, scene->radius);
     return true;
 }
 
@@ -74,6 +92,8 @@ static bool test_primitive(const struct scene *scene, uint32_t index,
     const struct object *o = &scene->objects[p->object];
     if (o->kind == OBJECT_SPHERE)
         return sphere_intersect(&o->sphere, r, &hit->t);
+    if (o->kind == OBJECT_RECT)
+        return rect_intersect(&o->rect, r, &hit->t);
     struct triangle_hit found;
     if (!triangle_intersect(p->corners, r, &found))
         return false;
@@ -121,30 +141,48 @@ bool scene_nearest(const struct scene *scene, const ray *r,
 
 struct surface scene_surface(const struct scene *scene, const ray *r,
                              const struct scene_hit *hit,
-                             const struct material **material)
+                             const struct object **object)
 {
     const struct primitive *p = &scene->primitives[hit->primitive];
     const struct object *o = &scene->objects[p->object];
-    *material = o->material;
+    *object = o;
     if (o->kind == OBJECT_SPHERE)
         return sphere_surface(&o->sphere, r, hit->t);
+    if (o->kind == OBJECT_RECT)
+        return rect_surface(&o->rect, r, hit->t);
     struct triangle_hit found = {hit->t, hit->b1, hit->b2};
     return mesh_surface(&o->mesh, p->triangle, &found);
+}
+
+static bool blocked(const struct scene *scene, ray r)
+{
+    struct scene_hit hit;
+    counters_mine.shadow_rays++;
+    return accel_any(&scene->accel, &r, test_any, scene, &hit);
 }
 
 bool scene_segment_blocked(const struct scene *scene, const struct surface *s,
                            vec3 point)
 {
-    ray r = surface_segment(s, point);
-    struct scene_hit hit;
-    counters_mine.shadow_rays++;
-    return accel_any(&scene->accel, &r, test_any, scene, &hit);
+    return blocked(scene, surface_segment(s, point));
+}
+
+bool scene_direction_blocked(const struct scene *scene, const struct surface *s,
+                             vec3 direction)
+{
+    return blocked(scene, surface_ray(s, direction, INFINITY));
 }
 
 void scene_free(struct scene *scene)
 {
     for (uint32_t i = 0; i < scene->object_count; i++)
         mesh_free(&scene->objects[i].mesh);
+    for (uint32_t i = 0; i < scene->texture_count; i++)
+        texture_free(&scene->textures[i]);
+    for (uint32_t i = 0; i < scene->light_count; i++)
+        light_free(&scene->lights[i]);
+    image_free(&scene->environment_image);
+    light_table_free(&scene->light_table);
     mem_free(scene->objects);
     mem_free(scene->materials);
     mem_free(scene->textures);

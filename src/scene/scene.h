@@ -88,8 +88,8 @@ struct surface scene_surface(const struct scene *scene, const ray *r,
 
 /* Is anything in this direction, however far? The query starts off the
  * surface. */
-bool scene_direction_blocked(const struct scene *scene,
-                             const struct surface *s, vec3 direction);
+bool scene_direction_blocked(const struct scene *scene, const struct surface *s,
+                             vec3 direction);
 
 /* Is the straight way from the surface to the point blocked? The query starts
  * off the surface and ends at the point: it cannot hit the surface that it

@@ -49,8 +49,30 @@ static vec3 smooth_normal(const struct mesh *m, uint32_t triangle,
     return vec3_dot(n, geometric) < 0.0f ? vec3_negate(n) : n;
 }
 
-static void differentials(const vec3 p[3], const vec2 uv[3],
-                          struct surface *out)
+/* The shading normal turns as the unnormalized blend of the vertex normals
+ * does, less what only changes its length. It is found by the same 2x2
+ * relation as the differentials of the position. */
+static void normal_differentials(const struct mesh *m, uint32_t triangle,
+                                 const vec2 uv[3], const float b[3],
+                                 struct surface *out)
+{
+    if (m->normals == NULL)
+        return;
+    const uint32_t *index = &m->indices[3 * (size_t)triangle];
+    const vec3 corner[3] = {m->normals[index[0]], m->normals[index[1]],
+                            m->normals[index[2]]};
+    vec3 n = out->shading_normal, du, dv;
+    float length = vec3_dot(blend(corner, b), n); /* below 0: n was turned */
+    if (!triangle_uv_differentials(corner, uv, &du, &dv))
+        return;
+    du = vec3_scale(du, 1.0f / length);
+    dv = vec3_scale(dv, 1.0f / length);
+    out->dn_du = vec3_step(du, -vec3_dot(du, n), n);
+    out->dn_dv = vec3_step(dv, -vec3_dot(dv, n), n);
+}
+
+static void position_differentials(const vec3 p[3], const vec2 uv[3],
+                                   struct surface *out)
 {
     if (!triangle_uv_differentials(p, uv, &out->dp_du, &out->dp_dv))
         vec3_frame(out->geometric_normal, &out->dp_du, &out->dp_dv);
@@ -59,7 +81,7 @@ static void differentials(const vec3 p[3], const vec2 uv[3],
 struct surface mesh_surface(const struct mesh *m, uint32_t triangle,
                             const struct triangle_hit *hit)
 {
-    struct surface out;
+    struct surface out = {0};
     vec3 p[3];
     vec2 uv[3];
     const float b[3] = {1.0f - hit->b1 - hit->b2, hit->b1, hit->b2};
@@ -72,7 +94,8 @@ struct surface mesh_surface(const struct mesh *m, uint32_t triangle,
     out.shading_normal = smooth_normal(m, triangle, b, out.geometric_normal);
     out.uv = vec2_make(b[0] * uv[0].x + b[1] * uv[1].x + b[2] * uv[2].x,
                        b[0] * uv[0].y + b[1] * uv[1].y + b[2] * uv[2].y);
-    differentials(p, uv, &out);
+    position_differentials(p, uv, &out);
+    normal_differentials(m, triangle, uv, b, &out);
     return out;
 }
 

@@ -44,11 +44,13 @@ static void sphere_differentials(const struct sphere *s, vec3 n,
     out->dp_du = vec3_make(-2.0f * PI * radial.y, 2.0f * PI * radial.x, 0.0f);
     out->dp_dv = vec3_scale(vec3_make(n.z * cos_phi, n.z * sin_phi, -sin_theta),
                             PI * s->radius);
+    out->dn_du = vec3_scale(out->dp_du, 1.0f / s->radius);
+    out->dn_dv = vec3_scale(out->dp_dv, 1.0f / s->radius);
 }
 
 struct surface sphere_surface(const struct sphere *s, const ray *r, float t)
 {
-    struct surface out;
+    struct surface out = {0};
     vec3 n = vec3_normalize(vec3_sub(ray_at(r, t), s->center));
     float theta = acosf(fmaxf(-1.0f, fminf(1.0f, n.z)));
     out.position = vec3_step(s->center, s->radius, n);

@@ -6,6 +6,49 @@
 /* The ends of an open range of t, as floats. */
 static const float just_above_0 = FLT_MIN, just_below_1 = 1.0f - 0x1p-24f;
 
+/* How the point where a ray meets the plane through it moves when the ray
+ * changes: the change of the ray there, slid along the ray back into the
+ * plane. t is the distance in units of the direction. */
+static vec3 slide(const struct surface *s, const ray *r, float t,
+                  vec3 origin_change, vec3 direction_change)
+{
+    vec3 n = s->geometric_normal;
+    vec3 change = vec3_step(origin_change, t, direction_change);
+    float along = vec3_dot(change, n) / vec3_dot(r->direction, n);
+    vec3 step = vec3_step(change, -along, r->direction);
+    return vec3_is_finite(step) ? step : vec3_make(0.0f, 0.0f, 0.0f);
+}
+
+void surface_step(const struct surface *s, const ray *r,
+                  const struct ray_differential *d, vec3 *dp_dx, vec3 *dp_dy)
+{
+    vec3 way = vec3_sub(s->position, r->origin);
+    float t =
+        vec3_dot(way, r->direction) / vec3_dot(r->direction, r->direction);
+    *dp_dx = slide(s, r, t, d->origin_dx, d->direction_dx);
+    *dp_dy = slide(s, r, t, d->origin_dy, d->direction_dy);
+}
+
+/* The combination of dp_du and dp_dv nearest to step: the normal equations. */
+static vec2 in_texture(const struct surface *s, vec3 step)
+{
+    float uu = vec3_dot(s->dp_du, s->dp_du), uv = vec3_dot(s->dp_du, s->dp_dv);
+    float vv = vec3_dot(s->dp_dv, s->dp_dv);
+    float u = vec3_dot(s->dp_du, step), v = vec3_dot(s->dp_dv, step);
+    float k = 1.0f / (uu * vv - uv * uv);
+    vec2 d = vec2_make(k * (vv * u - uv * v), k * (uu * v - uv * u));
+    return isfinite(d.x) && isfinite(d.y) ? d : vec2_make(0.0f, 0.0f);
+}
+
+void surface_footprint(struct surface *s, const ray *r,
+                       const struct ray_differential *d)
+{
+    vec3 dp_dx, dp_dy;
+    surface_step(s, r, d, &dp_dx, &dp_dy);
+    s->uv_dx = in_texture(s, dp_dx);
+    s->uv_dy = in_texture(s, dp_dy);
+}
+
 /* The next number away from where the point came from: adding a small offset
  * to a large coordinate may round it away altogether. */
 static float round_outwards(float moved, float offset)

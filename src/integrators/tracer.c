@@ -1,0 +1,24 @@
+/* tracer.c - see tracer.h. */
+#include "integrators/tracer.h"
+
+bool tracer_hit(const struct tracer *t, const ray *r,
+                const struct ray_differential *d, struct vertex *out)
+{
+    struct scene_hit hit;
+    if (!scene_nearest(t->scene, r, &hit))
+        return false;
+    out->surface = scene_surface(t->scene, r, &hit, &out->object);
+    surface_footprint(&out->surface, r, d);
+    out->outgoing = vec3_negate(vec3_normalize(r->direction));
+    out->t = hit.t;
+    path_log_hit(t->log, t->scene, out->object, &out->surface, hit.t);
+    return true;
+}
+
+rgb vertex_emitted(const struct tracer *t, const struct vertex *v)
+{
+    bool front = vec3_dot(v->outgoing, v->surface.geometric_normal) > 0.0f;
+    if (v->object->light < 0 || !front)
+        return rgb_grey(0.0f);
+    return t->scene->lights[v->object->light].radiance;
+}

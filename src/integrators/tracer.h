@@ -1,0 +1,33 @@
+/* tracer.h - what every integrator works with: one sample's state, and the
+ * point where a ray ends. */
+#ifndef RAYBOOK_INTEGRATORS_TRACER_H
+#define RAYBOOK_INTEGRATORS_TRACER_H
+
+#include "base/ray_differential.h"
+#include "integrators/path_log.h"
+#include "sampling/sampler.h"
+#include "scene/scene.h"
+
+/* One sample of one pixel. log is NULL but for --pixel. */
+struct tracer {
+    const struct scene *scene;
+    struct sampler *sampler;
+    struct path_log *log;
+};
+
+/* Where a ray met the scene. outgoing is the unit vector back along it. */
+struct vertex {
+    struct surface surface;
+    const struct object *object;
+    vec3 outgoing;
+    float t;
+};
+
+/* The nearest hit as a vertex, with the footprint of d; false on a miss. */
+bool tracer_hit(const struct tracer *t, const ray *r,
+                const struct ray_differential *d, struct vertex *out);
+
+/* The radiance that the vertex itself emits back along the ray. */
+rgb vertex_emitted(const struct tracer *t, const struct vertex *v);
+
+#endif

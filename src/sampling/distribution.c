@@ -1,0 +1,155 @@
+/* distribution.c - see distribution.h. */
+#include "sampling/distribution.h"
+
+#include <stddef.h>
+
+#include "base/memory.h"
+#include "sampling/warp.h"
+
+static struct distribution_1d start(uint32_t count)
+{
+    struct distribution_1d d = {count, NULL, 0.0};
+    d.cdf = mem_alloc((size_t)count + 1, sizeof *d.cdf);
+    return d;
+}
+
+/* Turns running sums into a table from 0 to 1. */
+static void normalize(struct distribution_1d *d)
+{
+    d->total = d->cdf[d->count];
+    bool empty = !(d->total > 0.0);
+    for (uint32_t i = 1; i <= d->count; i++)
+        d->cdf[i] = empty ? (double)i / d->count : d->cdf[i] / d->total;
+}
+
+struct distribution_1d distribution_1d_make(const float weights[],
+                                            uint32_t count)
+{
+    struct distribution_1d d = start(count);
+    for (uint32_t i = 0; i < count; i++)
+        d.cdf[i + 1] = d.cdf[i] + (double)weights[i];
+    normalize(&d);
+    return d;
+}
+
+/* The last cell that starts at or before random. A cell of weight 0 ends where
+ * it starts, so a later one is found instead; since random is below 1, which
+ * is where all cells end, there is one. */
+static uint32_t find_cell(const struct distribution_1d *d, float random)
+{
+    uint32_t first = 0, beyond = d->count;
+    while (beyond - first > 1) {
+        uint32_t middle = first + (beyond - first) / 2;
+        if (d->cdf[middle] <= (double)random)
+            first = middle;
+        else
+            beyond = middle;
+    }
+    return first;
+}
+
+uint32_t distribution_1d_sample(const struct distribution_1d *d, float random,
+                                float *remainder)
+{
+    uint32_t cell = find_cell(d, random);
+    double start = d->cdf[cell], width = d->cdf[cell + 1] - start;
+    float inside = (float)(((double)random - start) / width);
+    if (remainder != NULL)
+        *remainder = fminf(inside, ONE_MINUS_EPSILON);
+    return cell;
+}
+
+float distribution_1d_probability(const struct distribution_1d *d,
+                                  uint32_t cell)
+{
+    return (float)(d->cdf[cell + 1] - d->cdf[cell]);
+}
+
+void distribution_1d_free(struct distribution_1d *d)
+{
+    mem_free(d->cdf);
+    d->cdf = NULL;
+    d->count = 0;
+}
+
+/* How likely each row is: by the sum of its weights. */
+static struct distribution_1d pick_rows(const struct distribution_1d *columns,
+                                        uint32_t height)
+{
+    struct distribution_1d d = start(height);
+    for (uint32_t y = 0; y < height; y++)
+        d.cdf[y + 1] = d.cdf[y] + columns[y].total;
+    normalize(&d);
+    return d;
+}
+
+struct distribution_2d distribution_2d_make(const float weights[],
+                                            uint32_t width, uint32_t height)
+{
+    struct distribution_2d d = {width, height, {0}, NULL};
+    d.columns = mem_alloc(height, sizeof *d.columns);
+    for (uint32_t y = 0; y < height; y++)
+        d.columns[y] =
+            distribution_1d_make(weights + (size_t)y * width, width);
+    d.rows = pick_rows(d.columns, height);
+    return d;
+}
+
+void distribution_2d_pick(const struct distribution_2d *d, vec2 random,
+                          uint32_t *column, uint32_t *row, vec2 *remainder)
+{
+    *row = distribution_1d_sample(&d->rows, random.y, &remainder->y);
+    *column = distribution_1d_sample(&d->columns[*row], random.x,
+                                     &remainder->x);
+}
+
+static float density(const struct distribution_2d *d, uint32_t column,
+                     uint32_t row)
+{
+    float cell = distribution_1d_probability(&d->rows, row) *
+                 distribution_1d_probability(&d->columns[row], column);
+    return cell * (float)d->width * (float)d->height;
+}
+
+/* The cell of a coordinate in [0, 1]. */
+static uint32_t cell_of(float coordinate, uint32_t count)
+{
+    float cell = fmaxf(0.0f, coordinate * (float)count);
+    return cell < (float)count ? (uint32_t)cell : count - 1;
+}
+
+/* The coordinate in a cell; rounding must not carry it into the next one. */
+static float coordinate_in(uint32_t cell, float remainder, uint32_t count)
+{
+    float middle = ((float)cell + 0.5f) / (float)count;
+    float at = ((float)cell + remainder) / (float)count;
+    while (cell_of(at, count) != cell && at != middle)
+        at = nextafterf(at, middle);
+    return at;
+}
+
+float distribution_2d_sample(const struct distribution_2d *d, vec2 random,
+                             vec2 *point)
+{
+    uint32_t column, row;
+    vec2 in_cell;
+    distribution_2d_pick(d, random, &column, &row, &in_cell);
+    point->x = coordinate_in(column, in_cell.x, d->width);
+    point->y = coordinate_in(row, in_cell.y, d->height);
+    return density(d, column, row);
+}
+
+float distribution_2d_pdf(const struct distribution_2d *d, vec2 point)
+{
+    return density(d, cell_of(point.x, d->width), cell_of(point.y, d->height));
+}
+
+void distribution_2d_free(struct distribution_2d *d)
+{
+    for (uint32_t y = 0; y < d->height; y++)
+        distribution_1d_free(&d->columns[y]);
+    distribution_1d_free(&d->rows);
+    mem_free(d->columns);
+    d->columns = NULL;
+    d->height = 0;
+}
