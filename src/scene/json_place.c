@@ -86,6 +86,19 @@ static void show_line(const char *line, size_t column, char *out, size_t size)
     snprintf(out, size, "  %s\n  %*s", shown, (int)(column - from) + 1, "^");
 }
 
+/* Where a key should begin (behind '{' or ','), cJSON stops one byte behind
+ * whatever else is there: go back to it. A letter or a mark there can't belong
+ * to a value that ended well. */
+static const char *true_place(const char *text, const char *stopped)
+{
+    if (stopped - text < 2 || strchr(" \t\r\n\"{}[]-0123456789,:", stopped[-1]))
+        return stopped;
+    const char *before = stopped - 2;
+    while (before > text && strchr(" \t\r\n", *before))
+        before--;
+    return *before == '{' || *before == ',' ? stopped - 1 : stopped;
+}
+
 /* What the parser met, for people. */
 static void describe_stop(const char *stopped, char *out, size_t size)
 {
@@ -107,6 +120,7 @@ bool json_syntax_fault(const char *file, const char *text, const char *stopped,
         stopped = text;
     while (stopped > text && *stopped == '\0' && stopped[-1] == '\n')
         stopped--; /* an early end is told at the last line */
+    stopped = true_place(text, stopped);
     for (const char *c = text; c < stopped; c++) {
         if (*c == '\n') {
             line = c + 1;

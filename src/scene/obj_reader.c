@@ -14,6 +14,7 @@
 #include "base/memory.h"
 #include "scene/corner_set.h"
 #include "scene/decimal.h"
+#include "scene/text_file.h"
 
 struct parser {
     const char *path;
@@ -387,23 +388,6 @@ static bool parse_text(struct parser *p, const char *text)
     return true;
 }
 
-/* A zero byte would end the text early: finds it and says where. */
-static bool check_is_text(struct parser *p, const char *text, size_t size)
-{
-    const char *zero = memchr(text, '\0', size);
-    if (zero == NULL)
-        return true;
-    p->line_start = text;
-    p->line = 1;
-    for (const char *c = text; c < zero; c++) {
-        if (*c == '\n') {
-            p->line_start = c + 1;
-            p->line++;
-        }
-    }
-    return fail(p, zero, "expected text, found a byte of value 0");
-}
-
 /* The mesh's arrays from the file's, by the distinct corners. */
 static void gather(const struct parser *p, struct mesh *out)
 {
@@ -434,47 +418,14 @@ static void release(struct parser *p)
     mem_free(p->indices);
 }
 
-/* Everything up to the end of f, and a zero byte behind it; the caller owns
- * the text. Returns NULL with errno set if reading fails. */
-static char *read_all(FILE *f, size_t *size)
-{
-    const size_t limit = (size_t)UINT32_MAX;
-    size_t capacity = 0;
-    char *text = NULL;
-    *size = 0;
-    do {
-        text = grow(text, capacity, &capacity, 1);
-        *size += fread(text + *size, 1, capacity - 1 - *size, f);
-    } while (*size == capacity - 1 && *size < limit);
-    if (ferror(f) || *size >= limit) {
-        errno = ferror(f) ? errno : EFBIG;
-        mem_free(text);
-        return NULL;
-    }
-    text[*size] = '\0';
-    return text;
-}
-
-static char *read_text(const char *path, size_t *size, struct error *err)
-{
-    FILE *f = fopen(path, "rb");
-    char *text = f != NULL ? read_all(f, size) : NULL;
-    if (text == NULL)
-        error_set(err, "%s: cannot read this mesh: %s", path, strerror(errno));
-    if (f != NULL)
-        fclose(f);
-    return text;
-}
-
 bool obj_read(const char *path, struct mesh *out, struct error *err)
 {
     struct parser p = {.path = path, .err = err};
-    size_t size;
     memset(out, 0, sizeof *out);
-    char *text = read_text(path, &size, err);
+    char *text = text_file_read(path, err);
     if (text == NULL)
         return false;
-    bool ok = check_is_text(&p, text, size) && parse_text(&p, text);
+    bool ok = parse_text(&p, text);
     mem_free(text);
     if (ok) {
         gather(&p, out);

@@ -19,7 +19,7 @@ static int64_t regular_size(const char *path, struct error *err)
 {
     struct stat info;
     if (stat(path, &info) != 0) {
-        error_set(err, "%s: cannot read: %s", path, strerror(errno));
+        error_set(err, "%.300s: cannot read: %s", path, strerror(errno));
         return -1;
     }
     if (!S_ISREG(info.st_mode)) {
@@ -35,6 +35,22 @@ static int64_t regular_size(const char *path, struct error *err)
     return info.st_size;
 }
 
+/* Tells the place of a byte 0 as an editor shows it. */
+static void fault_of_zero(const char *path, const char *text, const char *zero,
+                          struct error *err)
+{
+    int line = 1;
+    const char *line_start = text;
+    for (const char *c = text; c < zero; c++) {
+        if (*c == '\n') {
+            line_start = c + 1;
+            line++;
+        }
+    }
+    error_set(err, "%s:%d:%td: found a byte of value 0, expected text (UTF-8)",
+              path, line, zero - line_start + 1);
+}
+
 char *text_file_read(const char *path, struct error *err)
 {
     int64_t size = regular_size(path, err);
@@ -42,7 +58,7 @@ char *text_file_read(const char *path, struct error *err)
         return NULL;
     FILE *file = fopen(path, "rb");
     if (file == NULL) {
-        error_set(err, "%s: cannot read: %s", path, strerror(errno));
+        error_set(err, "%.300s: cannot read: %s", path, strerror(errno));
         return NULL;
     }
     char *text = mem_alloc((size_t)size + 1, 1);
@@ -52,8 +68,7 @@ char *text_file_read(const char *path, struct error *err)
     if (got == (size_t)size && zero == NULL)
         return text;
     if (zero != NULL)
-        error_set(err, "%s: not a text file: byte %td is 0, expected UTF-8",
-                  path, zero - text);
+        fault_of_zero(path, text, zero, err);
     else
         error_set(err, "%s: cannot read all of it", path);
     mem_free(text);
