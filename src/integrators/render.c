@@ -187,6 +187,8 @@ bool render(const struct scene *scene, const struct render_options *options,
         job.last_sample = next_pass(job.first_sample, scene->integrator.spp,
                                     options->whole_passes);
         render_pass(&job, &progress, total);
+        if (options->pass_done != NULL)
+            options->pass_done(options->user, film);
     }
     return !progress.stopped;
 }

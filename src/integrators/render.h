@@ -27,6 +27,9 @@ struct render_options {
      * rendering early. */
     bool (*stop)(void *user, uint64_t samples_done);
 
+    /* Called after each pass, while no thread works on the film; NULL: not. */
+    void (*pass_done)(void *user, const struct film *film);
+
     /* true: a stop waits until every pixel has the same number of samples. */
     bool whole_passes;
     void *user;

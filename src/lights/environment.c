@@ -106,8 +106,7 @@ struct place {
 static struct place find_place(const struct image *image, vec3 local)
 {
     float phi = atan2f(local.y, local.x);
-    float theta =
-        atan2f(sqrtf(local.x * local.x + local.y * local.y), local.z);
+    float theta = atan2f(sqrtf(local.x * local.x + local.y * local.y), local.z);
     float u = phi / (2.0f * PI) + (phi < 0.0f ? 1.0f : 0.0f);
     float x = u * (float)image->width - 0.5f;
     float y = theta / PI * (float)image->height + 0.5f;

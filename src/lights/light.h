@@ -48,13 +48,25 @@ struct light {
     const struct mesh *mesh;
     struct distribution_1d triangles; /* mesh: by area; owned */
     float area;                       /* mesh, rect, sphere; m^2 */
-    struct environment environment;   /* owned */
+    float extent; /* no two points of the rect, of the sphere or of one of the
+                     mesh's triangles are further apart; m */
+    struct environment environment; /* owned */
 };
 
-/* What a point sees of a light in one direction. */
+/* Ties an area light of this kind to its shape, which must stay where it is
+ * as long as the light is used; the mesh's table is built here. */
+void light_set_rect(struct light *light, const struct rect *rect);
+void light_set_sphere(struct light *light, const struct sphere *sphere);
+void light_set_mesh(struct light *light, const struct mesh *mesh);
+
+/* What a point sees of a light in one direction.
+ *
+ * target is the place on the light, moved off it by just more than rounding
+ * may have moved it in: the straight way from a point in front to the target
+ * doesn't meet the light itself. */
 struct light_sample {
     vec3 direction; /* to the light, unit */
-    vec3 target;    /* the point on the light; unused when infinite */
+    vec3 target;    /* where the way to it ends; unused when infinite */
     bool infinite;  /* the light has no place: follow direction for ever */
     bool delta;     /* a single direction: no density; pdf is 1 */
     rgb radiance;   /* arriving; for delta lights the irradiance on a surface
@@ -73,6 +85,11 @@ bool light_sample(const struct light *light, vec3 point, vec2 random,
  * the environment only direction counts. 0 for delta lights. */
 float light_pdf(const struct light *light, vec3 point, vec3 direction,
                 vec3 position, vec3 normal);
+
+/* The radiance that an area light sends along `outgoing` (away from it, of any
+ * length) from a place with this geometric normal; black on its back, and for
+ * other kinds of light. */
+rgb light_emitted(const struct light *light, vec3 normal, vec3 outgoing);
 
 /* Is it a light without extent, which a ray can't hit? */
 bool light_is_delta(const struct light *light);

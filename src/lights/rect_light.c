@@ -3,8 +3,7 @@
 
 vec3 rect_light_place(const struct rect *rect, vec2 random)
 {
-    vec3 along_x =
-        vec3_step(rect->center, random.x - 0.5f, rect->side_x);
+    vec3 along_x = vec3_step(rect->center, random.x - 0.5f, rect->side_x);
     return vec3_step(along_x, random.y - 0.5f, rect->side_y);
 }
 

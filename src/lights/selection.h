@@ -14,7 +14,9 @@ struct light_table {
 };
 
 /* by_power false: every light is as likely. True: in proportion to
- * light_power, but none that has any power has probability 0. */
+ * light_power, but none that has any power has a probability near 0: light that
+ * is never picked is lost, and what is hardly ever picked is noise. If no light
+ * has any power, all are as likely. Release with light_table_free. */
 struct light_table light_table_make(const struct light lights[], uint32_t count,
                                     bool by_power, float scene_radius);
 

@@ -6,8 +6,8 @@
 
 /* The cone of directions in which a point sees the sphere. */
 struct cone {
-    vec3 axis;        /* to the centre, unit */
-    float sine;       /* of the angle from the axis to the rim: radius over
+    vec3 axis;  /* to the centre, unit */
+    float sine; /* of the angle from the axis to the rim: radius over
                          distance */
     float one_minus_cosine; /* of the same angle */
 };
@@ -17,8 +17,8 @@ struct cone {
 static bool visible_cone(const struct sphere *s, vec3 point, struct cone *out)
 {
     vec3 way = vec3_sub(s->center, point);
-    double distance2 = (double)way.x * way.x + (double)way.y * way.y +
-                       (double)way.z * way.z;
+    double distance2 =
+        (double)way.x * way.x + (double)way.y * way.y + (double)way.z * way.z;
     double sine2 = (double)s->radius * s->radius / distance2;
     if (!(sine2 <= 1.0))
         return false;
@@ -37,17 +37,16 @@ static vec3 from_frame(vec3 axis, vec3 local)
 }
 
 /* The normal where a direction (in the cone's frame) first meets the sphere.
- * Across the axis it is the direction, drawn out until the rim's 1 is reached;
- * along it, by the law of cosines (PBRT, 4th edition, section 6.2.4). */
+ * With x = sin theta / sine, the share of the way from the axis to the rim,
+ * the hit is distance cos theta - radius sqrt(1 - x^2) away, and the angle at
+ * the centre has the cosine x^2 sine + cos theta sqrt(1 - x^2). */
 static vec3 cap_normal(const struct cone *cone, vec3 local)
 {
-    float across = (local.x * local.x + local.y * local.y);
-    float share = fminf(across / (cone->sine * cone->sine), 1.0f);
-    float cosine =
-        share * cone->sine + local.z * sqrtf(1.0f - share);
-    float sine = sqrtf(fmaxf(0.0f, 1.0f - cosine * cosine));
-    float draw = across > 0.0f ? sine / sqrtf(across) : 0.0f;
-    return vec3_make(local.x * draw, local.y * draw, -cosine);
+    float x = sqrtf(local.x * local.x + local.y * local.y) / cone->sine;
+    float root = sqrtf(fmaxf(0.0f, 1.0f - x * x));
+    float radii_away = local.z / cone->sine - root;
+    float cosine = x * x * cone->sine + local.z * root;
+    return vec3_make(local.x * radii_away, local.y * radii_away, -cosine);
 }
 
 bool sphere_light_sample(const struct sphere *s, vec3 point, vec2 random,

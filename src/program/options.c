@@ -10,6 +10,9 @@
 #include "base/nearest.h"
 #include "scene/settings.h"
 
+const char *const aov_names[] = {"albedo",   "normal",    "depth",    "uv",
+                                 "bvh_cost", "mip_level", "variance", NULL};
+
 /* Reads one option's value (NULL when it takes none); false fills *err. */
 typedef bool set_fn(struct options *o, const char *name, const char *value,
                     struct error *err);
@@ -165,8 +168,8 @@ static bool set_accel(struct options *o, const char *name, const char *value,
 static bool set_integrator(struct options *o, const char *name,
                            const char *value, struct error *err)
 {
-    o->integrator = value;
-    return read_name(name, value, integrator_names, err) >= 0;
+    o->integrator = read_name(name, value, integrator_names, err);
+    return o->integrator >= 0;
 }
 
 static bool set_override(struct options *o, const char *name, const char *value,
@@ -217,15 +220,52 @@ static bool set_version(struct options *o, const char *name, const char *value,
     return o->version = true;
 }
 
-static bool not_yet(struct options *o, const char *name, const char *value,
+/* A comma-separated list of names. */
+static bool set_aov(struct options *o, const char *name, const char *value,
                     struct error *err)
 {
-    (void)o, (void)value;
-    return error_set(err, "%s: not supported by this version yet", name);
+    while (*value != '\0') {
+        char word[32];
+        size_t length = strcspn(value, ",");
+        snprintf(word, sizeof word, "%.*s", (int)length, value);
+        int index = read_name(name, word, aov_names, err);
+        if (index < 0)
+            return false;
+        o->aovs |= 1u << index;
+        value += length + (value[length] == ',');
+    }
+    return o->aovs != 0 || wrong(name, value, "a list of channels", err);
 }
 
-/* value: how the help names it; NULL: the option stands alone. help NULL:
- * refused by name, and not in the help. */
+static bool set_pixel(struct options *o, const char *name, const char *value,
+                      struct error *err)
+{
+    int place[2];
+    if (!read_list(value, ',', 2, place))
+        return wrong(name, value, "X,Y", err);
+    o->has_pixel = true;
+    o->pixel_x = place[0];
+    o->pixel_y = place[1];
+    return true;
+}
+
+static bool set_preview(struct options *o, const char *name, const char *value,
+                        struct error *err)
+{
+    (void)name, (void)value, (void)err;
+    return o->preview = true;
+}
+
+static bool set_tev(struct options *o, const char *name, const char *value,
+                    struct error *err)
+{
+    (void)name, (void)err;
+    o->tev = value != NULL ? value : "127.0.0.1:14158";
+    return true;
+}
+
+/* value: how the help names it; NULL: the option stands alone. A value in
+ * brackets may be left out; it is then given only behind '='. */
 static const struct option {
     const char *name, *letter, *value, *help;
     set_fn *set;
@@ -240,26 +280,37 @@ static const struct option {
     {"--threads", NULL, "N", "default: one a processor", set_threads},
     {"--resolution", NULL, "WxH", "pixels, such as 640x480", set_resolution},
     {"--max-depth", NULL, "N", "longest chain of glass or mirrors", set_depth},
-    {"--integrator", NULL, "NAME", "intersection_test", set_integrator},
+    {"--integrator", NULL, "NAME",
+     "intersection_test, direct, path, normal, depth, uv,\n"
+     "bvh_cost or mip_level",
+     set_integrator},
     {"--accel", NULL, "NAME", "bvh (default) or linear (tests everything)",
      set_accel},
     {"--override", NULL, "JSON",
      "merged into the scene, such as\n"
      "'{\"film\": {\"resolution\": [64, 64]}}'",
      set_override},
+    {"--aov", NULL, "LIST",
+     "more EXR channels: albedo, normal, depth, uv, bvh_cost,\n"
+     "mip_level, variance",
+     set_aov},
+    {"--pixel", NULL, "X,Y",
+     "render that one pixel and print the tree of its paths", set_pixel},
     {"--crop", NULL, "X0,Y0,X1,Y1", "render only that window", set_crop},
     {"--time-limit", NULL, "S",
      "stop after S seconds, with the same number of samples\n"
      "in every pixel",
      set_time_limit},
     {"--stats", NULL, "FILE|-", "counters and times, as JSON", set_stats},
+    {"--preview", NULL, NULL,
+     "show the picture in the terminal while it renders", set_preview},
+    {"--tev", NULL, "[=HOST:PORT]",
+     "send the picture to a running tev viewer\n"
+     "(default 127.0.0.1:14158)",
+     set_tev},
     {"--quiet", "-q", NULL, "say nothing but errors", set_quiet},
     {"--help", "-h", NULL, "this text", set_help},
     {"--version", NULL, NULL, "the version", set_version},
-    {"--aov", NULL, "LIST", NULL, not_yet},
-    {"--pixel", NULL, "X,Y", NULL, not_yet},
-    {"--preview", NULL, NULL, NULL, not_yet},
-    {"--tev", NULL, NULL, NULL, not_yet},
 };
 
 enum { OPTION_COUNT = sizeof table / sizeof table[0] };
@@ -311,7 +362,8 @@ static bool parse_one(struct options *out, int *i, int argc, char *argv[],
         return unknown_option(text, err);
     if (option->value == NULL && equals != NULL)
         return error_set(err, "%s takes no value", option->name);
-    if (option->value == NULL || option->help == NULL)
+    bool optional = option->value != NULL && option->value[0] == '[';
+    if (option->value == NULL || (optional && equals == NULL))
         return option->set(out, option->name, NULL, err);
     if (equals == NULL && *i + 1 >= argc)
         return error_set(err, "%s: the value is missing, expected %s",
@@ -326,6 +378,7 @@ bool options_parse(int argc, char *argv[], struct options *out,
     static const struct options none;
     *out = none;
     out->seed = -1;
+    out->integrator = -1;
     for (int i = 1; i < argc; i++)
         if (!parse_one(out, &i, argc, argv, err))
             return false;

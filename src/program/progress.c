@@ -23,7 +23,7 @@ struct progress_bar progress_start(uint64_t total_samples, bool quiet)
     return bar;
 }
 
-static int terminal_width(void)
+int progress_terminal_width(void)
 {
     struct winsize size;
     if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
@@ -57,9 +57,10 @@ void progress_update(struct progress_bar *bar, uint64_t samples_done)
     int length =
         snprintf(words, sizeof words, "%3.0f %%  %.2f Msamples/s  %.0f s left",
                  100.0 * part, 1e-6 * (double)samples_done / elapsed, left);
-    int room = terminal_width() - length - 3;
+    int room = progress_terminal_width() - length - 3;
     draw_bar(part, room < 40 ? room : 40, picture);
-    fprintf(stderr, "\r\033[K%s%.*s", picture, terminal_width() - 1, words);
+    fprintf(stderr, "\r\033[K%s%.*s", picture, progress_terminal_width() - 1,
+            words);
     fflush(stderr);
 }
 

@@ -11,6 +11,9 @@ struct progress_bar {
     uint64_t total;        /* samples */
 };
 
+/* Columns of the terminal at standard error; 80 where that can't be told. */
+int progress_terminal_width(void);
+
 /* Seconds of a clock that only goes forward. */
 double progress_clock(void);
 

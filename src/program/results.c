@@ -61,6 +61,12 @@ static bool can_write(const char *path, struct error *err)
 bool results_possible(const struct results *r, const struct options *o,
                       struct error *err)
 {
+    bool is_png = strcmp(strrchr(r->output, '.'), ".png") == 0;
+    if (is_png && o->aovs != 0)
+        return error_set(err,
+                         "--aov: %s: a PNG has no such channels, expected "
+                         "an .exr file",
+                         r->output);
     return can_write(r->output, err) && can_write(o->png, err) &&
            can_write(o->stats, err);
 }
@@ -76,6 +82,74 @@ static uint32_t samples_everywhere(const struct session *s)
             fewest = n < fewest ? n : fewest;
         }
     return fewest;
+}
+
+/* The extra channels that were asked for, as one block of rows of all of them,
+ * and where each begins. */
+struct extra_channels {
+    float *values; /* owned */
+    int count;
+    const char *names[AOV_CHANNELS + 1];
+    int source[AOV_CHANNELS + 1]; /* the film's channel; < 0: the variance */
+};
+
+/* Which group (bit of enum aov) each of the film's channels belongs to. */
+static const unsigned channel_group[AOV_CHANNELS] = {
+    AOV_BIT_ALBEDO, AOV_BIT_ALBEDO,   AOV_BIT_ALBEDO,   AOV_BIT_NORMAL,
+    AOV_BIT_NORMAL, AOV_BIT_NORMAL,   AOV_BIT_DEPTH,    AOV_BIT_UV,
+    AOV_BIT_UV,     AOV_BIT_BVH_COST, AOV_BIT_MIP_LEVEL};
+
+static void list_channels(unsigned aovs, struct extra_channels *out)
+{
+    out->count = 0;
+    for (int i = 0; i < AOV_CHANNELS; i++)
+        if (aovs & channel_group[i]) {
+            out->names[out->count] = aov_channel_names[i];
+            out->source[out->count++] = i;
+        }
+    if (aovs & AOV_BIT_VARIANCE) {
+        out->names[out->count] = "variance";
+        out->source[out->count++] = -1;
+    }
+}
+
+static struct extra_channels extra_channels(const struct session *s)
+{
+    struct extra_channels extra = {0};
+    const struct window *w = &s->window;
+    list_channels(s->options.aovs, &extra);
+    size_t pixels = (size_t)(w->x1 - w->x0) * (size_t)(w->y1 - w->y0);
+    extra.values = mem_alloc(pixels * (size_t)extra.count + 1, sizeof(float));
+    float *out = extra.values;
+    for (int y = w->y0; y < w->y1; y++)
+        for (int x = w->x0; x < w->x1; x++)
+            for (int i = 0; i < extra.count; i++)
+                *out++ = extra.source[i] < 0
+                             ? film_variance(&s->film, x, y)
+                             : film_aov(&s->film, x, y, extra.source[i]);
+    return extra;
+}
+
+static bool write_channels(const struct results *r, const struct session *s,
+                           const struct image *image,
+                           const struct exr_attribute attributes[], int count,
+                           struct error *err)
+{
+    struct extra_channels extra = extra_channels(s);
+    struct exr_channel channels[AOV_CHANNELS + 4] = {
+        {"R", &image->pixels->r, 3},
+        {"G", &image->pixels->g, 3},
+        {"B", &image->pixels->b, 3}};
+    for (int i = 0; i < extra.count; i++) {
+        channels[3 + i].name = extra.names[i];
+        channels[3 + i].values = extra.values + i;
+        channels[3 + i].stride = extra.count;
+    }
+    bool fine =
+        exr_write_channels(r->output, image->width, image->height, channels,
+                           3 + extra.count, attributes, count, err);
+    mem_free(extra.values);
+    return fine;
 }
 
 static bool write_exr(const struct results *r, const struct session *s,
@@ -94,8 +168,8 @@ static bool write_exr(const struct results *r, const struct session *s,
         {"raybook:variant", RAYBOOK_VARIANT},
         {"raybook:command", r->command},
     };
-    return exr_write(r->output, image, attributes,
-                     (int)(sizeof attributes / sizeof attributes[0]), err);
+    return write_channels(r, s, image, attributes,
+                          (int)(sizeof attributes / sizeof attributes[0]), err);
 }
 
 static bool write_image(const struct results *r, const struct session *s,
@@ -128,6 +202,8 @@ static void say_done(const struct results *r, const struct session *s,
 bool results_write(const struct results *r, const struct session *s,
                    struct error *err)
 {
+    if (s->options.has_pixel && s->options.output == NULL)
+        return true; /* the words were what was asked for */
     struct image image = film_develop(&s->film, s->window.x0, s->window.y0,
                                       s->window.x1, s->window.y1);
     uint32_t spp = samples_everywhere(s);

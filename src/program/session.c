@@ -4,6 +4,7 @@
 #include "program/session.h"
 
 #include <signal.h>
+#include <stdio.h>
 #include <string.h>
 
 #ifdef _OPENMP
@@ -41,6 +42,8 @@ static bool apply_options(const struct options *o, struct scene *scene,
         scene->integrator.max_depth = o->max_depth;
     if (o->seed >= 0)
         scene->integrator.seed = (uint64_t)o->seed;
+    if (o->integrator >= 0)
+        scene->integrator.kind = (enum integrator_kind)o->integrator;
     if (o->width > 0) {
         scene->film.width = o->width;
         scene->film.height = o->height;
@@ -48,6 +51,10 @@ static bool apply_options(const struct options *o, struct scene *scene,
     if (o->has_crop &&
         (o->crop.x1 > scene->film.width || o->crop.y1 > scene->film.height))
         return error_set(err, "--crop: the window leaves the film of %d x %d",
+                         scene->film.width, scene->film.height);
+    if (o->has_pixel &&
+        (o->pixel_x >= scene->film.width || o->pixel_y >= scene->film.height))
+        return error_set(err, "--pixel: the film has %d x %d pixels",
                          scene->film.width, scene->film.height);
     return true;
 }
@@ -71,6 +78,10 @@ bool session_load(struct session *s, struct error *err)
     double loaded = progress_clock();
     if (!scene_prepare(&s->scene, s->options.accel, err))
         return false;
+    s->preview.shown = s->options.preview && !s->options.quiet;
+    if (s->options.tev != NULL &&
+        !tev_connect(&s->viewer, s->options.tev, s->options.scene, err))
+        return false;
     s->statistics.scene = &s->scene;
     s->statistics.accel = accel_names[s->options.accel];
     s->statistics.threads = threads_used(&s->options);
@@ -86,21 +97,54 @@ static bool should_stop(void *user, uint64_t samples_done)
     return interrupted || (s->deadline > 0.0 && progress_clock() > s->deadline);
 }
 
+static void show(void *user, const struct film *film)
+{
+    struct session *s = user;
+    preview_show(&s->preview, film, &s->window);
+    if (!s->viewer.connected)
+        return;
+    struct image image = film_develop(film, s->window.x0, s->window.y0,
+                                      s->window.x1, s->window.y1);
+    tev_send(&s->viewer, &image);
+    image_free(&image);
+}
+
+static struct window window_of(const struct session *s)
+{
+    const struct options *o = &s->options;
+    struct window whole = {0, 0, s->scene.film.width, s->scene.film.height};
+    struct window pixel = {o->pixel_x, o->pixel_y, o->pixel_x + 1,
+                           o->pixel_y + 1};
+    if (o->has_pixel)
+        return pixel;
+    return o->has_crop ? o->crop : whole;
+}
+
+static void start_clock(struct session *s)
+{
+    const struct window *w = &s->window;
+    uint64_t pixels = (uint64_t)(w->x1 - w->x0) * (uint64_t)(w->y1 - w->y0);
+    s->bar = progress_start(pixels * (uint64_t)s->scene.integrator.spp,
+                            s->options.quiet || s->options.has_pixel);
+    if (s->options.time_limit > 0.0)
+        s->deadline = progress_clock() + s->options.time_limit;
+}
+
 void session_render(struct session *s)
 {
     const struct film_settings *f = &s->scene.film;
-    struct window whole = {0, 0, f->width, f->height};
-    s->window = s->options.has_crop ? s->options.crop : whole;
-    struct render_options how = {s->window, s->options.threads, should_stop,
-                                 s->options.time_limit > 0.0, s};
-    uint64_t pixels = (uint64_t)(s->window.x1 - s->window.x0) *
-                      (uint64_t)(s->window.y1 - s->window.y0);
-    s->film = film_make(f->width, f->height);
-    s->bar = progress_start(pixels * (uint64_t)s->scene.integrator.spp,
-                            s->options.quiet);
+    struct path_log log = {stdout, 0};
+    s->window = window_of(s);
+    struct render_options how = {.window = s->window,
+                                 .threads = s->options.threads,
+                                 .log = s->options.has_pixel ? &log : NULL,
+                                 .stop = should_stop,
+                                 .pass_done = show,
+                                 .user = s};
+    s->film = film_make(f->width, f->height, s->options.aovs != 0);
+    start_clock(s);
+    how.whole_passes = s->deadline > 0.0;
     double start = progress_clock();
-    if (s->options.time_limit > 0.0)
-        s->deadline = start + s->options.time_limit;
     catch_interrupt();
     render(&s->scene, &how, &s->film, &s->statistics.counters);
     s->statistics.render_seconds = progress_clock() - start;
@@ -112,4 +156,5 @@ void session_free(struct session *s)
 {
     scene_free(&s->scene);
     film_free(&s->film);
+    tev_close(&s->viewer);
 }

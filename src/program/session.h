@@ -8,8 +8,10 @@
 #include "camera/film.h"
 #include "integrators/render.h"
 #include "program/options.h"
+#include "program/preview.h"
 #include "program/progress.h"
 #include "program/statistics.h"
+#include "program/tev.h"
 #include "scene/scene.h"
 
 /* All zero but for the options before session_load; session_free releases
@@ -20,6 +22,8 @@ struct session {
     struct film film;
     struct window window; /* what is rendered */
     struct progress_bar bar;
+    struct preview preview;
+    struct tev viewer;
     struct statistics statistics;
     double deadline;  /* of progress_clock; 0: none */
     bool interrupted; /* by Ctrl-C: not all samples were taken */

@@ -89,8 +89,7 @@ struct distribution_2d distribution_2d_make(const float weights[],
     struct distribution_2d d = {width, height, {0}, NULL};
     d.columns = mem_alloc(height, sizeof *d.columns);
     for (uint32_t y = 0; y < height; y++)
-        d.columns[y] =
-            distribution_1d_make(weights + (size_t)y * width, width);
+        d.columns[y] = distribution_1d_make(weights + (size_t)y * width, width);
     d.rows = pick_rows(d.columns, height);
     return d;
 }
@@ -99,8 +98,8 @@ void distribution_2d_pick(const struct distribution_2d *d, vec2 random,
                           uint32_t *column, uint32_t *row, vec2 *remainder)
 {
     *row = distribution_1d_sample(&d->rows, random.y, &remainder->y);
-    *column = distribution_1d_sample(&d->columns[*row], random.x,
-                                     &remainder->x);
+    *column =
+        distribution_1d_sample(&d->columns[*row], random.x, &remainder->x);
 }
 
 static float density(const struct distribution_2d *d, uint32_t column,

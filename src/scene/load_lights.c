@@ -51,20 +51,20 @@ static void load_directional(struct json_reader *j, const cJSON *node,
 static void load_cone(struct json_reader *j, const cJSON *node,
                       struct light *out)
 {
-    static const struct json_range degrees = {
+    static const struct json_range cutoff_range = {
         0.01, 89.99, "an angle in degrees from 0.01 to 89.99"};
-    static const struct json_range inner_degrees = {
+    static const struct json_range beam_range = {
         0.0, 89.99, "an angle in degrees from 0 to 89.99"};
-    const cJSON *inner_node = json_get(node, "inner_angle");
-    float outer = json_float(j, json_get(node, "outer_angle"), degrees, 30.0f);
-    float inner = json_float(j, inner_node, inner_degrees, 0.75f * outer);
-    if (inner >= outer)
+    const cJSON *beam_node = json_get(node, "beam_angle");
+    const cJSON *cutoff_node = json_get(node, "cutoff_angle");
+    float cutoff = json_float(j, cutoff_node, cutoff_range, 20.0f);
+    float beam = json_float(j, beam_node, beam_range, 0.75f * cutoff);
+    if (beam > cutoff)
         json_fault(j, node,
-                   "inner_angle is %g, expected less than "
-                   "outer_angle, %g",
-                   (double)inner, (double)outer);
-    out->cos_outer = cosf(outer * (PI / 180.0f));
-    out->cos_inner = cosf(inner * (PI / 180.0f));
+                   "beam_angle is %g, expected at most cutoff_angle, %g",
+                   (double)beam, (double)cutoff);
+    out->cutoff_angle = cutoff * (PI / 180.0f);
+    out->beam_angle = beam * (PI / 180.0f);
 }
 
 static void load_spot(struct json_reader *j, const cJSON *node,
@@ -72,7 +72,7 @@ static void load_spot(struct json_reader *j, const cJSON *node,
 {
     static const char *const keys[] = {
         "type",        "position",    "direction", "intensity",
-        "outer_angle", "inner_angle", NULL};
+        "cutoff_angle", "beam_angle", NULL};
     json_keys(j, node, keys);
     out->position = json_vec3(j, json_require(j, node, "position"),
                               vec3_make(0.0f, 0.0f, 0.0f));

@@ -1,0 +1,66 @@
+/* delta_lights.c - see delta_lights.h. */
+#include "lights/delta_lights.h"
+
+#include "base/constants.h"
+
+/* The direction to the light's position, and 1 / d^2. */
+static bool look_at_light(const struct light *light, vec3 point,
+                          struct light_sample *out, float *inverse_square)
+{
+    vec3 way = vec3_sub(light->position, point);
+    float distance = vec3_length(way);
+    if (!(distance > 0.0f))
+        return false;
+    out->direction = vec3_scale(way, 1.0f / distance);
+    out->target = light->position;
+    out->infinite = false;
+    out->delta = true;
+    out->pdf = 1.0f;
+    *inverse_square = 1.0f / (distance * distance);
+    return true;
+}
+
+bool point_light_sample(const struct light *light, vec3 point,
+                        struct light_sample *out)
+{
+    float inverse_square;
+    if (!look_at_light(light, point, out, &inverse_square))
+        return false;
+    out->radiance = rgb_scale(light->flux, inverse_square / (4.0f * PI));
+    return true;
+}
+
+bool directional_light_sample(const struct light *light,
+                              struct light_sample *out)
+{
+    out->direction = vec3_negate(light->direction);
+    out->target = vec3_make(0.0f, 0.0f, 0.0f);
+    out->infinite = true;
+    out->delta = true;
+    out->radiance = light->irradiance;
+    out->pdf = 1.0f;
+    return true;
+}
+
+float spot_light_falloff(const struct light *light, float cosine)
+{
+    if (cosine >= light->cos_inner)
+        return 1.0f;
+    if (cosine <= light->cos_outer)
+        return 0.0f;
+    float x =
+        (cosine - light->cos_outer) / (light->cos_inner - light->cos_outer);
+    return x * x * (3.0f - 2.0f * x);
+}
+
+bool spot_light_sample(const struct light *light, vec3 point,
+                       struct light_sample *out)
+{
+    float inverse_square;
+    if (!look_at_light(light, point, out, &inverse_square))
+        return false;
+    float cosine = -vec3_dot(light->direction, out->direction);
+    float falloff = spot_light_falloff(light, cosine);
+    out->radiance = rgb_scale(light->intensity, falloff * inverse_square);
+    return true;
+}

@@ -1,0 +1,26 @@
+/* delta_lights.h - lights without extent: one direction from each point.
+ *
+ * Each function answers light_sample for its kind. */
+#ifndef RAYBOOK_LIGHTS_DELTA_LIGHTS_H
+#define RAYBOOK_LIGHTS_DELTA_LIGHTS_H
+
+#include "lights/light.h"
+
+/* Irradiance flux / (4 pi d^2). false at the light itself. */
+bool point_light_sample(const struct light *light, vec3 point,
+                        struct light_sample *out);
+
+/* The same irradiance from the same direction everywhere. */
+bool directional_light_sample(const struct light *light,
+                              struct light_sample *out);
+
+/* Irradiance intensity x falloff / d^2. false outside the cone. */
+bool spot_light_sample(const struct light *light, vec3 point,
+                       struct light_sample *out);
+
+/* The share of the spot's full intensity at an angle from its axis: 1 within
+ * cos_inner, 0 beyond cos_outer, smoothstep of the cosine in between. A hard
+ * edge where the two are equal. */
+float spot_light_falloff(const struct light *light, float cosine);
+
+#endif

@@ -1,0 +1,92 @@
+/* specular_differential.c - see specular_differential.h. */
+#include "materials/specular_differential.h"
+
+#include "materials/specular.h"
+
+/* One bounce: the directions before and after it run with the ray, the normal
+ * faces the first of them. ratio: the index here over the index beyond. */
+struct turn {
+    vec3 before, after, normal;
+    float ratio;
+    bool transmitted;
+};
+
+static struct turn turn_make(const struct material *m, const struct surface *s,
+                             const ray *r, const struct scatter *way)
+{
+    vec3 outgoing = vec3_negate(r->direction);
+    struct turn t = {r->direction, way->incoming,
+                     specular_normal(s, outgoing, way->incoming), 1.0f / m->eta,
+                     way->transmitted};
+    if (vec3_dot(t.before, t.normal) > 0.0f) {
+        t.normal = vec3_negate(t.normal);
+        t.ratio = m->eta;
+    }
+    return t;
+}
+
+/* after = before - 2 (before . normal) normal */
+static vec3 reflected_change(const struct turn *t, vec3 before_change,
+                             vec3 normal_change)
+{
+    float cosine = vec3_dot(t->before, t->normal);
+    float cosine_change =
+        vec3_dot(before_change, t->normal) + vec3_dot(t->before, normal_change);
+    vec3 step = vec3_step(before_change, -2.0f * cosine, normal_change);
+    return vec3_step(step, -2.0f * cosine_change, t->normal);
+}
+
+/* after = ratio before - mu normal; mu = ratio (before . normal) -
+ * (after . normal), where the last is a cosine that Snell's law ties to the
+ * first: Igehy's equations 15 to 18. */
+static vec3 refracted_change(const struct turn *t, vec3 before_change,
+                             vec3 normal_change)
+{
+    float cosine = vec3_dot(t->before, t->normal);
+    float cosine_beyond = vec3_dot(t->after, t->normal);
+    float cosine_change =
+        vec3_dot(before_change, t->normal) + vec3_dot(t->before, normal_change);
+    float mu = t->ratio * cosine - cosine_beyond;
+    float mu_change =
+        t->ratio * (1.0f - t->ratio * cosine / cosine_beyond) * cosine_change;
+    vec3 step =
+        vec3_step(vec3_scale(before_change, t->ratio), -mu, normal_change);
+    return vec3_step(step, -mu_change, t->normal);
+}
+
+/* dn_du and dn_dv are the shading normal's. At the rim of a mesh the geometric
+ * one may stand in for it; its turning is not known, and this one serves. */
+static vec3 direction_change(const struct surface *s, const struct turn *t,
+                             vec3 before_change, vec2 uv_step)
+{
+    bool turned = vec3_dot(t->normal, s->shading_normal) < 0.0f;
+    vec3 normal_change =
+        vec3_step(vec3_scale(s->dn_du, uv_step.x), uv_step.y, s->dn_dv);
+    if (turned)
+        normal_change = vec3_negate(normal_change);
+    return t->transmitted ? refracted_change(t, before_change, normal_change)
+                          : reflected_change(t, before_change, normal_change);
+}
+
+static vec3 or_zero(vec3 v)
+{
+    return vec3_is_finite(v) ? v : vec3_make(0.0f, 0.0f, 0.0f);
+}
+
+void material_specular_differential(const struct material *m,
+                                    const struct surface *s, const ray *r,
+                                    const struct ray_differential *in,
+                                    const struct scatter *way,
+                                    struct ray_differential *out)
+{
+    struct turn t = turn_make(m, s, r, way);
+    struct ray_differential d;
+    struct surface at = *s;
+    surface_footprint(&at, r, in);
+    surface_step(s, r, in, &d.origin_dx, &d.origin_dy);
+    d.direction_dx =
+        or_zero(direction_change(s, &t, in->direction_dx, at.uv_dx));
+    d.direction_dy =
+        or_zero(direction_change(s, &t, in->direction_dy, at.uv_dy));
+    *out = d;
+}

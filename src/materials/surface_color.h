@@ -1,0 +1,15 @@
+/* surface_color.h - a texture looked up where a ray met a surface. */
+#ifndef RAYBOOK_MATERIALS_SURFACE_COLOR_H
+#define RAYBOOK_MATERIALS_SURFACE_COLOR_H
+
+#include "shapes/surface.h"
+#include "textures/texture.h"
+
+static inline rgb surface_color(const struct texture *texture,
+                                const struct surface *s)
+{
+    const struct texture_point at = {s->uv, s->uv_dx, s->uv_dy};
+    return texture_color(texture, &at);
+}
+
+#endif
