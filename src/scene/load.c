@@ -78,6 +78,8 @@ static void load_all(struct json_reader *j, struct scene *scene)
                      json_get(root, "environment_map"), scene);
     load_objects(j, json_get(root, "materials"), json_get(root, "objects"),
                  scene);
+    if (scene->object_count == 0)
+        json_fault(j, root, "there are no objects, so nothing would be seen");
 }
 
 /* RFC 7396: members of the patch replace, null removes, objects merge. */

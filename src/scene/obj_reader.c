@@ -5,7 +5,6 @@
  * they took, and return false after they have reported a fault. */
 #include "scene/obj_reader.h"
 
-#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
