@@ -18,8 +18,9 @@ bool triangle_intersect(const vec3 p[3], const ray *r, struct triangle_hit *hit)
     float determinant = vec3_dot(r->direction, normal);
     //< triangle.intersect.system
     //> triangle.intersect.solve: Solve it by Cramer's rule
-    /* A determinant of 0 makes these infinite or NaN. The test below is
-     * written as what must hold for a hit, so either one is a miss. */
+    /* A determinant of 0 makes these infinite or NaN, and one that overflows
+     * makes inverse 0. The test below is written as what must hold for a hit,
+     * so all of them are misses. */
     float inverse = 1.0f / determinant;
     float b1 = -vec3_dot(moment, edge2) * inverse;
     float b2 = vec3_dot(moment, edge1) * inverse;
@@ -28,7 +29,7 @@ bool triangle_intersect(const vec3 p[3], const ray *r, struct triangle_hit *hit)
     //> triangle.intersect.accept: Accept a point inside the triangle and range
     bool inside = b1 >= 0.0f && b2 >= 0.0f && b1 + b2 <= 1.0f;
     bool in_range = t >= r->t_min && t <= r->t_max;
-    if (!(determinant != 0.0f && inside && in_range))
+    if (!(inverse != 0.0f && inside && in_range))
         return false;
     hit->t = t;
     hit->b1 = b1;
@@ -57,7 +58,7 @@ bool triangle_uv_differentials(const vec3 p[3], const vec2 uv[3], vec3 *dp_du,
     float du2 = uv[2].x - uv[0].x, dv2 = uv[2].y - uv[0].y;
     //> triangle.uv.solve: Invert the 2x2 matrix
     float determinant = du1 * dv2 - du2 * dv1;
-    if (determinant == 0.0f)
+    if (determinant == 0.0f || !isfinite(determinant))
         return false;
     float k = 1.0f / determinant;
     vec3 u_axis =

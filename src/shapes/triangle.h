@@ -39,7 +39,8 @@ struct triangle_hit {
  *
  * Accuracy asked for: t within 1e-4 relative plus what a wrong last digit of
  * the input can do; b1, b2 within 1e-4 for well-shaped triangles. Within that
- * of an edge or of the range's ends either answer is right.
+ * of an edge or of the range's ends either answer is right; where rounding
+ * plays no part, as for small whole numbers, edges and ends count.
  *
  * Called many million times: no allocation, no printing, no state.
  *
@@ -58,6 +59,8 @@ bool triangle_intersect(const vec3 p[3], const ray *r,
  *
  * for i = 1, 2, stores them and returns true. They lie in the triangle's
  * plane and in general are neither of length one nor at right angles.
+ * Accuracy asked for: within 1e-4 of each vector's length, plus what a wrong
+ * last digit of the input can do.
  *
  * When the texture coordinates have no area (all equal, or in a line: the
  * 2x2 system has a determinant of exactly 0) or the solution is not finite,

@@ -22,7 +22,7 @@ HANDOUT_FOLDER = "assignments/handout/"
 _VERBATIM = re.compile(
     r"scenes/.+|\.setup/(?!requirements)[^/]+|\.clang-format|\.gitignore|(LICEN[CS]E|COPYING)[^/]*"
 )
-_OF_ASSIGNMENT = re.compile(r"assignment\.toml|test_\w+\.c|handout\.md")
+_OF_ASSIGNMENT = re.compile(r"assignment\.toml|test_\w+\.c|handout\.md|hints\.md")
 
 
 @dataclass(frozen=True)
