@@ -49,7 +49,7 @@ cflags = $(common) $($(filter release debug asan,$(OPT))) $(lto) $(libraries_cfl
     $(patsubst %,-DTODO_%,$(TODO)) $(CFLAGS)
 ldflags = -fopenmp $($(filter release debug asan,$(OPT))) $(lto) $(LDFLAGS)
 
-sources := $(filter-out src/%/test_%,$(shell find src -name '*.c' | LC_ALL=C sort))
+sources := $(shell find src -name '*.c' ! -name 'test_*' | LC_ALL=C sort)
 tests := $(sort $(wildcard src/*/test_*.c assignments/*/test_*.c))
 objects := $(sources:src/%.c=$(objdir)/%.o)
 stamp := $(objdir)/flags.stamp
