@@ -28,9 +28,10 @@
 /* Wraps in x, clamps in y; x at most one beyond the border. */
 static rgb texel(const struct image *image, int x, int y)
 {
-    int column = x < 0 ? x + image->width : x % image->width;
+    int width = image->width, column = x < 0 ? x + width : x;
+    column = column < width ? column : column - width;
     int row = y < 0 ? 0 : y < image->height ? y : image->height - 1;
-    return image->pixels[(size_t)row * (size_t)image->width + (size_t)column];
+    return image->pixels[(size_t)row * (size_t)width + (size_t)column];
 }
 
 /* The four texels around a patch, in the order of warp_bilinear. */

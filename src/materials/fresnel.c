@@ -31,5 +31,6 @@ float fresnel_conductor(float cosine, float eta, float k)
     float across = (sum + cosine2 - mixed) / (sum + cosine2 + mixed);
     float fixed = cosine2 * sum + sine2 * sine2;
     float in_plane = across * (fixed - mixed * sine2) / (fixed + mixed * sine2);
-    return 0.5f * (across + in_plane);
+    /* Rounding may take an invisible metal, eta = 1 and k = 0, below 0. */
+    return fmaxf(0.0f, 0.5f * (across + in_plane));
 }

@@ -5,9 +5,12 @@
 #include "shapes/surface.h"
 #include "textures/texture.h"
 
+/* White where there is no texture (NULL). */
 static inline rgb surface_color(const struct texture *texture,
                                 const struct surface *s)
 {
+    if (texture == NULL)
+        return rgb_grey(1.0f);
     const struct texture_point at = {s->uv, s->uv_dx, s->uv_dy};
     return texture_color(texture, &at);
 }

@@ -63,15 +63,15 @@ static void load_cone(struct json_reader *j, const cJSON *node,
         json_fault(j, node,
                    "beam_angle is %g, expected at most cutoff_angle, %g",
                    (double)beam, (double)cutoff);
-    out->cutoff_angle = cutoff * (PI / 180.0f);
-    out->beam_angle = beam * (PI / 180.0f);
+    out->cos_outer = cosf(cutoff * (PI / 180.0f));
+    out->cos_inner = cosf(beam * (PI / 180.0f));
 }
 
 static void load_spot(struct json_reader *j, const cJSON *node,
                       struct light *out)
 {
     static const char *const keys[] = {
-        "type",        "position",    "direction", "intensity",
+        "type",         "position",   "direction", "intensity",
         "cutoff_angle", "beam_angle", NULL};
     json_keys(j, node, keys);
     out->position = json_vec3(j, json_require(j, node, "position"),
@@ -164,6 +164,21 @@ void load_environment(struct json_reader *j, const cJSON *textures,
         environment_make(&scene->environment_image, scale, t);
 }
 
+static void bind_shape(struct light *light, const struct object *object)
+{
+    switch (object->kind) {
+    case OBJECT_MESH:
+        light_set_mesh(light, &object->mesh);
+        break;
+    case OBJECT_SPHERE:
+        light_set_sphere(light, &object->sphere);
+        break;
+    case OBJECT_RECT:
+        light_set_rect(light, &object->rect);
+        break;
+    }
+}
+
 void load_area_light(struct json_reader *j, const cJSON *node,
                      struct scene *scene, struct object *object)
 {
@@ -174,8 +189,12 @@ void load_area_light(struct json_reader *j, const cJSON *node,
     if (node == NULL || read_type(j, node, kinds) < 0)
         return;
     json_keys(j, node, keys);
+    rgb radiance =
+        json_rgb(j, json_require(j, node, "radiance"), rgb_grey(0.0f));
+    if (!json_fine(j))
+        return;
     object->light = (int32_t)scene->light_count;
     struct light *light = add_light(scene, light_kinds[object->kind]);
-    light->radiance =
-        json_rgb(j, json_require(j, node, "radiance"), rgb_grey(0.0f));
+    light->radiance = radiance;
+    bind_shape(light, object);
 }

@@ -34,8 +34,8 @@ static double wave_mean(double scale, float delta)
 /* The two colours alternate as the product of a wave in u and one in v. */
 static rgb checkerboard_mean(const struct texture *t)
 {
-    double wave = wave_mean(t->scale.x, t->delta.x) *
-                  wave_mean(t->scale.y, t->delta.y);
+    double wave =
+        wave_mean(t->scale.x, t->delta.x) * wave_mean(t->scale.y, t->delta.y);
     return rgb_add(rgb_scale(t->color[0], (float)(0.5 + 0.5 * wave)),
                    rgb_scale(t->color[1], (float)(0.5 - 0.5 * wave)));
 }
@@ -68,8 +68,7 @@ static vec2 mapped(const struct texture *t, vec2 uv)
     return vec2_make(large.x + t->delta.x, large.y + t->delta.y);
 }
 
-rgb texture_color(const struct texture *texture,
-                  const struct texture_point *at)
+rgb texture_color(const struct texture *texture, const struct texture_point *at)
 {
     switch (texture->kind) {
     case TEXTURE_CONSTANT:
