@@ -1,6 +1,7 @@
 /* transform.c - see transform.h. */
 #include "base/transform.h"
 
+#include <float.h>
 #include <string.h>
 
 struct transform transform_identity(void)
@@ -27,10 +28,27 @@ static double determinant(const struct transform *t)
            t->m[0][2] * cofactor(t, 0, 2);
 }
 
-/* Fills t->inverse from t->m; false if a number of it is not finite. */
+static double row_length(const struct transform *t, int row)
+{
+    double x = t->m[row][0], y = t->m[row][1], z = t->m[row][2];
+    return sqrt(x * x + y * y + z * z);
+}
+
+/* The determinant is computed with fewer than 16 roundings of terms no larger
+ * than the product of the rows' lengths: below that it may as well be 0. */
+static bool is_flat(const struct transform *t, double det)
+{
+    double volume = row_length(t, 0) * row_length(t, 1) * row_length(t, 2);
+    return !(fabs(det) > 16.0 * DBL_EPSILON * volume);
+}
+
+/* Fills t->inverse from t->m; false if the map is flat or a number of the
+ * inverse is not finite. */
 static bool invert(struct transform *t)
 {
     double det = determinant(t);
+    if (is_flat(t, det))
+        return false;
     for (int i = 0; i < 3; i++) {
         double moved = 0.0;
         for (int j = 0; j < 3; j++) {

@@ -86,8 +86,40 @@ static void point_channels(exr_encode_pipeline_t *encoder,
     }
 }
 
+/* The library's own function that compresses a chunk. */
+struct compressor {
+    exr_result_t (*compress)(exr_encode_pipeline_t *);
+};
+
+/* For readers, a chunk of as many bytes as its pixels take is not compressed.
+ * OpenEXRCore, 3.4.7 too, leaves compressed bytes there when compression
+ * keeps the size exactly, which reads as noise (OpenEXR issue 2306). */
+static exr_result_t compress_or_store(exr_encode_pipeline_t *encoder)
+{
+    const struct compressor *library = encoder->encoding_user_data;
+    exr_result_t result = library->compress(encoder);
+    if (result == EXR_ERR_SUCCESS &&
+        encoder->compressed_bytes == encoder->packed_bytes)
+        memcpy(encoder->compressed_buffer, encoder->packed_buffer,
+               encoder->packed_bytes);
+    return result;
+}
+
+static exr_result_t choose_routines(exr_context_t file,
+                                    struct compressor *library,
+                                    exr_encode_pipeline_t *encoder)
+{
+    exr_result_t result =
+        exr_encoding_choose_default_routines(file, 0, encoder);
+    library->compress = encoder->compress_fn;
+    encoder->compress_fn = compress_or_store;
+    encoder->encoding_user_data = library;
+    return result;
+}
+
 static exr_result_t write_chunk(exr_context_t file, const struct contents *c,
-                                int first_row, exr_encode_pipeline_t *encoder)
+                                int first_row, struct compressor *library,
+                                exr_encode_pipeline_t *encoder)
 {
     exr_chunk_info_t chunk;
     exr_result_t result =
@@ -101,7 +133,7 @@ static exr_result_t write_chunk(exr_context_t file, const struct contents *c,
         return result;
     point_channels(encoder, c, first_row);
     if (first)
-        result = exr_encoding_choose_default_routines(file, 0, encoder);
+        result = choose_routines(file, library, encoder);
     if (result == EXR_ERR_SUCCESS)
         result = exr_encoding_run(file, 0, encoder);
     return result;
@@ -110,10 +142,11 @@ static exr_result_t write_chunk(exr_context_t file, const struct contents *c,
 static exr_result_t write_pixels(exr_context_t file, const struct contents *c)
 {
     int32_t rows;
+    struct compressor library = {NULL};
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_result_t result = exr_get_scanlines_per_chunk(file, 0, &rows);
     for (int y = 0; y < c->height && result == EXR_ERR_SUCCESS; y += rows)
-        result = write_chunk(file, c, y, &encoder);
+        result = write_chunk(file, c, y, &library, &encoder);
     exr_encoding_destroy(file, &encoder);
     return result;
 }

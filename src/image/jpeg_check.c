@@ -5,6 +5,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "image/read_limits.h"
+
 /* T.81, table B.1: the second byte of a marker, after 0xff. */
 enum {
     MARKER_SOF0 = 0xc0, /* baseline frame */
@@ -27,6 +29,7 @@ struct jpeg {
     uint8_t segment[SEGMENT_SIZE]; /* without its length */
     size_t size;
     bool progressive;
+    int width, height;
     int component_count; /* 0: no frame so far */
     uint8_t components[MOST_COMPONENTS];
     bool scanned[MOST_COMPONENTS];
@@ -90,6 +93,8 @@ static const char *check_frame(struct jpeg *j)
     for (size_t i = 0; i < count; i++)
         j->components[i] = j->segment[6 + 3 * i];
     j->component_count = (int)count;
+    j->height = 256 * j->segment[1] + j->segment[2];
+    j->width = 256 * j->segment[3] + j->segment[4];
     return NULL;
 }
 
@@ -170,7 +175,8 @@ bool jpeg_check(FILE *file, const char *path, struct error *err)
     fseek(file, 2, SEEK_SET); /* after the start-of-image marker */
     const char *fault = find_fault(&j);
     if (fault == NULL)
-        return true;
+        return image_size_is_fine(path, "the JPEG file", j.width, j.height,
+                                  err);
     return error_set(err, "%s: the JPEG file is damaged or truncated: %s", path,
                      fault);
 }

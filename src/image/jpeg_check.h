@@ -12,8 +12,8 @@
  * by tables that the file never gave, takes a file that ends early for a
  * picture, and follows any number of scans. This walks the file's segments
  * (ITU-T T.81, annex B) and refuses all four, so that stb_image never sees
- * such a file. file is read from its beginning; path is for messages. false:
- * *err is filled. */
+ * such a file; nor one of a size that image_size_is_fine refuses. file is read
+ * from its beginning; path is for messages. false: *err is filled. */
 bool jpeg_check(FILE *file, const char *path, struct error *err);
 
 #endif

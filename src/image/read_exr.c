@@ -46,10 +46,16 @@ static bool refuse(struct exr_file *f, const char *what)
     return error_set(f->err, "%s: %s", f->path, what);
 }
 
+/* DWAA and DWAB compression came to OpenEXRCore after 3.1. */
 static bool is_fine(struct exr_file *f, exr_result_t result, const char *what)
 {
-    return result == EXR_ERR_SUCCESS ||
-           error_set(f->err, "%s: the EXR file is damaged or truncated: %s: %s",
+    if (result == EXR_ERR_SUCCESS)
+        return true;
+    if (result == EXR_ERR_FEATURE_NOT_IMPLEMENTED)
+        return refuse(f,
+                      "the EXR file's compression (DWAA or DWAB) is one that "
+                      "this OpenEXR library cannot read, expected another");
+    return error_set(f->err, "%s: the EXR file is damaged or truncated: %s: %s",
                      f->path, what, exr_get_default_error_message(result));
 }
 
@@ -259,7 +265,9 @@ static void release(exr_transcoding_pipeline_buffer_id_t use, void *buffer)
     free(buffer);
 }
 
-/* The library would convert and interleave too, but its way for half floats
+/* The library does the reading and decompressing, but two things not: a chunk
+ * that compression would not make shorter stands in the file as it is, which
+ * 3.1 does not know of B44. And it would convert and interleave too, but its way for half floats
  * writes through the null pointer of a channel that nobody wants; so ours. */
 static exr_result_t leave_unpacked(exr_decode_pipeline_t *decoder)
 {
@@ -277,6 +285,8 @@ static exr_result_t decode(const struct exr_file *f,
     exr_result_t result =
         exr_decoding_choose_default_routines(f->context, 0, decoder);
     decoder->unpack_and_convert_fn = leave_unpacked;
+    if (decoder->chunk.packed_size == decoder->chunk.unpacked_size)
+        decoder->decompress_fn = NULL;
     if (result == EXR_ERR_SUCCESS)
         result = exr_decoding_run(f->context, 0, decoder);
     return result;

@@ -133,7 +133,7 @@ bool hdr_read(FILE *file, const char *path, struct image *out,
                          "%s: the HDR file's size is not given as "
                          "\"-Y height +X width\"",
                          path);
-    if (!image_size_is_fine(path, "the image", width, height, err))
+    if (!image_size_is_fine(path, "the HDR file", width, height, err))
         return false;
     *out = image_make(width, height);
     int rows = read_rows(file, out);

@@ -10,7 +10,7 @@
 enum { IMAGE_MOST_PIXELS = 1 << 26 }; /* 8192 x 8192; 805 MB of floats */
 
 /* Is it an image of at least one pixel and not more than the limit? Otherwise
- * *err is filled. what names the size, such as "the data window". */
+ * *err is filled. what names the size, such as "the PNG file". */
 bool image_size_is_fine(const char *path, const char *what, int64_t width,
                         int64_t height, struct error *err);
 

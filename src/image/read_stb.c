@@ -3,6 +3,7 @@
 
 #include <stb/stb_image.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "base/memory.h"
 #include "image/jpeg_check.h"
@@ -64,23 +65,28 @@ static bool load_16(FILE *file, bool srgb, struct image *out)
     return true;
 }
 
+/* The size is in the first chunk, after the signature and the chunk's length
+ * and name: two big-endian numbers. */
+static bool png_check(FILE *file, const char *path, struct error *err)
+{
+    unsigned char b[8];
+    fseek(file, 16, SEEK_SET);
+    if (fread(b, 1, sizeof b, file) != sizeof b)
+        return error_set(err, "%s: the PNG file ends in its header", path);
+    int64_t width = ((int64_t)b[0] << 24) + (b[1] << 16) + (b[2] << 8) + b[3];
+    int64_t height = ((int64_t)b[4] << 24) + (b[5] << 16) + (b[6] << 8) + b[7];
+    return image_size_is_fine(path, "the PNG file", width, height, err);
+}
+
 bool stb_read(FILE *file, const char *path, bool jpeg, bool srgb,
               struct image *out, struct error *err)
 {
-    const char *kind = jpeg ? "JPEG" : "PNG";
-    int width, height, channels;
-    if (jpeg && !jpeg_check(file, path, err))
+    if (!(jpeg ? jpeg_check : png_check)(file, path, err))
         return false;
     rewind(file);
-    if (!stbi_info_from_file(file, &width, &height, &channels))
-        return error_set(err, "%s: not a readable %s file (%s)", path, kind,
-                         stbi_failure_reason());
-    if (!image_size_is_fine(path, "the image", width, height, err))
-        return false;
-    bool loaded = stbi_is_16_bit_from_file(file) ? load_16(file, srgb, out)
-                                                 : load_8(file, srgb, out);
-    if (loaded)
+    if (stbi_is_16_bit_from_file(file) ? load_16(file, srgb, out)
+                                       : load_8(file, srgb, out))
         return true;
     return error_set(err, "%s: the %s file is damaged or truncated (%s)", path,
-                     kind, stbi_failure_reason());
+                     jpeg ? "JPEG" : "PNG", stbi_failure_reason());
 }

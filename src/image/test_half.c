@@ -41,7 +41,7 @@ static void test_half_of_known_numbers(void)
     TEST_ASSERT_TRUE(signbit(half_to_float(0x8000)) != 0);
 }
 
-/* By IEC 61966-2-1, worked out to seven digits with a calculator of more. */
+/* By IEC 61966-2-1, worked out in decimal to 30 digits. */
 static void test_srgb_of_known_codes(void)
 {
     TEST_ASSERT_EQUAL_FLOAT(0.0f, srgb_decode(0.0f));

@@ -300,6 +300,26 @@ static void the_density_is_proportional_to_luminance(void)
     image_free(&image);
 }
 
+/* In 8192 rows the first covers 7e-8 of cos theta: one step of z in float.
+ * From a black first row to the second the density still rises evenly. */
+static void a_fine_map_has_no_steps_at_the_pole(void)
+{
+    enum { ROWS = 8192, STEPS = 100 };
+    struct image image = single_texel(1, ROWS, 0, 1);
+    struct environment e = environment_make(&image, 1.0f, transform_identity());
+    float top = environment_pdf(&e, direction_at(0.1f, 1.499f / ROWS));
+    float last = 0.0f;
+    for (int i = 0; i < STEPS; i++) {
+        float v = (0.5f + (float)i / STEPS) / ROWS;
+        float now = environment_pdf(&e, direction_at(0.1f, v));
+        TEST_ASSERT_TRUE(now >= last && now - last < 0.03f * top);
+        last = now;
+    }
+    TEST_ASSERT_FLOAT_WITHIN(0.03f * top, top, last);
+    environment_free(&e);
+    image_free(&image);
+}
+
 static void a_black_map_fails_to_pick(void)
 {
     struct image image = image_make(4, 2);
@@ -485,6 +505,7 @@ int main(void)
     RUN_TEST(samples_follow_the_density_at_the_poles);
     RUN_TEST(the_density_is_positive_where_there_is_light);
     RUN_TEST(the_density_is_proportional_to_luminance);
+    RUN_TEST(a_fine_map_has_no_steps_at_the_pole);
     RUN_TEST(a_black_map_fails_to_pick);
     RUN_TEST(black_is_never_picked);
     RUN_TEST(the_ends_of_the_range_are_safe);

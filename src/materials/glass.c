@@ -7,7 +7,7 @@
 bool glass_sample(const struct material *m, const struct surface *s,
                   vec3 outgoing, const float random[3], struct scatter *out)
 {
-    vec3 normal = specular_normal(s, outgoing, outgoing);
+    vec3 normal = specular_normal(s, outgoing);
     float cosine = vec3_dot(outgoing, normal);
     float eta_beyond = cosine >= 0.0f ? m->eta : 1.0f / m->eta;
     float share = fresnel_dielectric(fabsf(cosine), eta_beyond);

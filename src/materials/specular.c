@@ -10,9 +10,9 @@ static bool normals_agree(const struct surface *s, vec3 outgoing, vec3 incoming)
     return surface_side(s, outgoing) != 0 && surface_side(s, incoming) != 0;
 }
 
-vec3 specular_normal(const struct surface *s, vec3 outgoing, vec3 incoming)
+vec3 specular_normal(const struct surface *s, vec3 outgoing)
 {
-    bool agree = normals_agree(s, outgoing, incoming);
+    bool agree = surface_side(s, outgoing) != 0;
     return agree ? s->shading_normal : s->geometric_normal;
 }
 

@@ -17,8 +17,9 @@
 
 #include "shapes/surface.h"
 
-/* The normal about which outgoing turns into incoming. */
-vec3 specular_normal(const struct surface *s, vec3 outgoing, vec3 incoming);
+/* The normal for Fresnel's equations: the shading normal, if the two agree
+ * about outgoing. */
+vec3 specular_normal(const struct surface *s, vec3 outgoing);
 
 /* The mirror direction. */
 vec3 specular_reflect(const struct surface *s, vec3 outgoing);

@@ -1,8 +1,6 @@
 /* specular_differential.c - see specular_differential.h. */
 #include "materials/specular_differential.h"
 
-#include "materials/specular.h"
-
 /* One bounce: the directions before and after it run with the ray, the normal
  * faces the first of them. ratio: the index here over the index beyond. */
 struct turn {
@@ -11,17 +9,31 @@ struct turn {
     bool transmitted;
 };
 
+/* The shading or the geometric normal (specular.h), whichever outgoing was
+ * turned about: it lies along the sum of the two directions, each times the
+ * index on its side. That is Snell's law in one line. */
+static vec3 normal_in_use(const struct surface *s, vec3 outgoing,
+                          const struct scatter *way, float ratio)
+{
+    float weight = way->transmitted ? ratio : 1.0f;
+    vec3 along = vec3_step(way->incoming, weight, outgoing);
+    float smooth = fabsf(vec3_dot(along, s->shading_normal));
+    float geometric = fabsf(vec3_dot(along, s->geometric_normal));
+    return smooth >= geometric ? s->shading_normal : s->geometric_normal;
+}
+
 static struct turn turn_make(const struct material *m, const struct surface *s,
                              const ray *r, const struct scatter *way)
 {
+    struct turn t = {.before = r->direction,
+                     .after = way->incoming,
+                     .transmitted = way->transmitted};
     vec3 outgoing = vec3_negate(r->direction);
-    struct turn t = {r->direction, way->incoming,
-                     specular_normal(s, outgoing, way->incoming), 1.0f / m->eta,
-                     way->transmitted};
-    if (vec3_dot(t.before, t.normal) > 0.0f) {
+    bool outside = vec3_dot(outgoing, s->geometric_normal) >= 0.0f;
+    t.ratio = outside ? 1.0f / m->eta : m->eta;
+    t.normal = normal_in_use(s, outgoing, way, t.ratio);
+    if (!outside)
         t.normal = vec3_negate(t.normal);
-        t.ratio = m->eta;
-    }
     return t;
 }
 

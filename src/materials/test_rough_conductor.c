@@ -221,6 +221,20 @@ static void grazing_light_is_finite(void)
         }
 }
 
+/* Mirrors never face down, whatever rounding says. */
+static void the_mirrors_face_up(void)
+{
+    for (uint64_t i = 0; i < 200000; i++) {
+        vec2 alpha = vec2_make(0.001f + random_float(i, 0), 0.3f);
+        vec2 random = vec2_make(i % 2 ? random_float(i, 1) : 0.5f, 0.0f);
+        vec3 o =
+            warp_hemisphere(vec2_make(random_float(i, 2), random_float(i, 3)));
+        vec3 n = ggx_sample_seen(alpha, o, random);
+        TEST_ASSERT_TRUE(n.z >= 0.0f);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.0f, vec3_length(n));
+    }
+}
+
 static void the_albedo_is_the_reflectance_straight_on(void)
 {
     struct texture t = constant_texture(rgb_make(0.9f, 0.5f, 0.7f));
@@ -241,6 +255,7 @@ int main(void)
     RUN_TEST(the_roughness_follows_the_texture);
     RUN_TEST(there_is_an_answer_where_u_has_no_direction);
     RUN_TEST(grazing_light_is_finite);
+    RUN_TEST(the_mirrors_face_up);
     RUN_TEST(the_albedo_is_the_reflectance_straight_on);
     return UNITY_END();
 }

@@ -87,16 +87,21 @@ static void show_line(const char *line, size_t column, char *out, size_t size)
 }
 
 /* Where a key should begin (behind '{' or ','), cJSON stops one byte behind
- * whatever else is there: go back to it. A letter or a mark there can't belong
- * to a value that ended well. */
+ * whatever else is there: go back to it. Most of what may end a value well is
+ * left alone, but a '}' behind a comma ends nothing. */
 static const char *true_place(const char *text, const char *stopped)
 {
-    if (stopped - text < 2 || strchr(" \t\r\n\"{}[]-0123456789,:", stopped[-1]))
+    const char *blank = " \t\r\n", *fine = "\"{}[]-0123456789,:";
+    if (stopped - text < 2 || strchr(blank, stopped[-1]))
         return stopped;
     const char *before = stopped - 2;
-    while (before > text && strchr(" \t\r\n", *before))
+    while (before > text && strchr(blank, *before))
         before--;
-    return *before == '{' || *before == ',' ? stopped - 1 : stopped;
+    if (stopped[-1] == '}'
+            ? *before == ','
+            : !strchr(fine, stopped[-1]) && (*before == '{' || *before == ','))
+        return stopped - 1;
+    return stopped;
 }
 
 /* What the parser met, for people. */

@@ -16,10 +16,13 @@ MOST_LINES = 4
 """The message, and the line of the input with a caret below it."""
 
 
+CHECKOUT = Path(__file__).resolve().parents[3]
+
+
 @pytest.fixture(scope="session")
-def raybook(checkout: Path) -> Path:
+def raybook() -> Path:
     """The renderer: RAYBOOK_BINARY, or the one that `make` builds."""
-    path = Path(os.environ.get("RAYBOOK_BINARY", checkout / "build" / "raybook")).resolve()
+    path = Path(os.environ.get("RAYBOOK_BINARY", CHECKOUT / "build" / "raybook")).resolve()
     assert path.is_file(), f"{path} is not there: run `make` first"
     return path
 
