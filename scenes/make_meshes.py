@@ -4,22 +4,25 @@
 
 Needs only Python 3.11's standard library. Everything is computed from formulas and fixed seeds
 and written with a fixed number of digits, so the files are the same on every machine. A file is
-complete or absent (written aside, then renamed); if this script has not changed since the last
-run and all files are there, nothing is written.
+complete or absent; if the scripts have not changed since the last run and all files are there,
+nothing is written.
 
 Right-handed, y up, metres; faces are counter-clockwise seen from outside.
 """
 
 from __future__ import annotations
 
-import hashlib
 import math
-import os
 import random
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
+
+import terrain
+from generated import Maker, command
+from image_files import png
 
 Vec = tuple[float, float, float]
 Corner = tuple[int, ...]
@@ -372,48 +375,40 @@ def obj_corner(corner: Corner) -> str:
     return "/".join(str(i + 1) if i >= 0 else "" for i in corner)
 
 
-def obj_text(mesh: Mesh) -> str:
+def obj_lines(mesh: Mesh) -> Iterator[str]:
     """The whole file."""
-    lines = [f"# {mesh.title}; written by scenes/make_meshes.py\n"]
-    lines += [obj_line("v", p) for p in mesh.positions]
-    lines += [obj_line("vt", t) for t in mesh.uvs]
-    lines += [obj_line("vn", n) for n in mesh.normals]
-    lines += [f"f {' '.join(map(obj_corner, face))}\n" for face in mesh.faces]
-    return "".join(lines)
+    yield f"# {mesh.title}; written by scenes/make_meshes.py\n"
+    yield from (obj_line("v", p) for p in mesh.positions)
+    yield from (obj_line("vt", t) for t in mesh.uvs)
+    yield from (obj_line("vn", n) for n in mesh.normals)
+    yield from (f"f {' '.join(map(obj_corner, face))}\n" for face in mesh.faces)
 
 
-def write_aside(path: Path, text: str) -> None:
-    """Write path so that it is complete or absent."""
-    aside = path.with_name(f".{path.name}.{os.getpid()}")
-    aside.write_text(text, encoding="ascii", newline="\n")
-    aside.replace(path)
+def obj_file(build: Callable[[], Mesh]) -> Iterator[bytes]:
+    """The bytes of the mesh that "build" makes."""
+    return (line.encode("ascii") for line in obj_lines(build()))
 
 
-def make_meshes(folder: Path) -> bool:
-    """Bring folder up to date; True if anything had to be written."""
-    stamp = folder / ".stamp"
-    digest = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()
-    fresh = stamp.exists() and stamp.read_text(encoding="ascii") == digest
-    missing = [n for n in MESHES if not (fresh and (folder / n).exists())]
-    folder.mkdir(parents=True, exist_ok=True)
-    for name in missing:
-        write_aside(folder / name, obj_text(MESHES[name]()))
-    write_aside(stamp, digest)
-    return bool(missing)
+def terrain_mesh() -> Iterator[bytes]:
+    """A million triangles: see terrain.py."""
+    return (line.encode("ascii") for line in terrain.obj_lines())
 
 
-def main(arguments: Sequence[str]) -> int:
-    """The command line: one argument, the output folder."""
-    if len(arguments) != 1 or arguments[0].startswith("-"):
-        print("usage: python3 make_meshes.py FOLDER", file=sys.stderr)
-        return 2
-    try:
-        make_meshes(Path(arguments[0]))
-    except OSError as fault:
-        print(f"make_meshes.py: {fault}", file=sys.stderr)
-        return 2
-    return 0
+def terrain_colors() -> Iterator[bytes]:
+    """The terrain's texture."""
+    return png(list(terrain.color_rows()))
 
+
+FILES: dict[str, Maker] = {
+    "terrain.obj": terrain_mesh,
+    "terrain.png": terrain_colors,
+    **{name: partial(obj_file, build) for name, build in MESHES.items()},
+}
+
+HERE = Path(__file__).parent
+SOURCES = [
+    HERE / f"{name}.py" for name in ("make_meshes", "generated", "image_files", "noise", "terrain")
+]
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(command("make_meshes.py", FILES, SOURCES, sys.argv[1:]))

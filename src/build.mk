@@ -45,11 +45,21 @@ ldlibs := $(shell pkg-config --libs-only-L OpenEXR libcjson stb 2>/dev/null) \
     $(filter -lOpenEXRCore%,$(shell pkg-config --libs OpenEXR 2>/dev/null)) \
     -lcjson -lstb -lm
 
+# Embree, if it is there: it has no pkg-config file. EMBREE=no builds without.
+EMBREE ?= $(if $(shell echo '\#include <embree3/rtcore.h>' | $(CC) -E -x c - 2>/dev/null),yes,no)
+ifeq ($(EMBREE),yes)
+  libraries_cflags += -DRAYBOOK_EMBREE
+  ldlibs += -lembree3
+endif
+
 cflags = $(common) $($(filter release debug asan,$(OPT))) $(lto) $(libraries_cflags) \
     $(patsubst %,-DTODO_%,$(TODO)) $(CFLAGS)
 ldflags = -fopenmp $($(filter release debug asan,$(OPT))) $(lto) $(LDFLAGS)
 
 sources := $(shell find src -name '*.c' ! -name 'test_*' | LC_ALL=C sort)
+ifneq ($(EMBREE),yes)
+  sources := $(filter-out src/accel/embree.c,$(sources))
+endif
 tests := $(sort $(wildcard src/*/test_*.c assignments/*/test_*.c))
 objects := $(sources:src/%.c=$(objdir)/%.o)
 stamp := $(objdir)/flags.stamp
@@ -91,6 +101,14 @@ $(testdir)/%: %.c $(filter-out $(objdir)/main.o,$(objects)) $(unity)/unity.c
 	$(quiet_cc) $(CC) $(filter-out -Wpedantic -Werror,$(cflags)) -isystem $(unity) -DUNITY_INCLUDE_DOUBLE -MMD -MP \
 	    -MF $@.d $< $(unity)/unity.c $(filter %.o,$^) $(ldlibs) -o $@
 
+# What a test program outside of src/ is made with and linked with.
+list-objects: $(objects)
+	@echo $(filter-out $(objdir)/main.o,$(objects))
+list-compiler:
+	@echo $(CC) $(cflags)
+list-libraries:
+	@echo $(ldlibs)
+
 unit-tests: $(test_programs)
 	@for test in $^; do \
 	    $$test > $$test.log 2>&1 || { cat $$test.log; exit 1; }; \
@@ -124,5 +142,6 @@ ifndef V
 endif
 
 FORCE:
-.PHONY: FORCE unit-tests render-scenes
+.PHONY: FORCE unit-tests list-objects list-compiler list-libraries \
+    render-scenes
 -include $(objects:.o=.d) $(test_programs:=.d)

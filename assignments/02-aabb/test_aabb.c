@@ -138,7 +138,7 @@ static void a_range_that_just_touches_hits(void)
 static void the_order_of_the_answer_holds(void)
 {
     for (uint64_t i = 0; i < 10000; i++) {
-        struct sampler s = sampler_start(1, 0, i);
+        struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 1, 0, i, 1);
         vec2 a = sampler_2d(&s), b = sampler_2d(&s), c = sampler_2d(&s);
         ray r = ray_from(8 * a.x - 2, 6 * a.y - 2, 10 * b.x - 2, b.y - 0.5f,
                          c.x - 0.5f, c.y - 0.5f);
@@ -387,7 +387,7 @@ static bool has_a_zero(vec3 v)
 static void no_box_that_is_crossed_is_ever_lost(void)
 {
     for (uint64_t i = 0; i < 200000; i++) {
-        struct sampler s = sampler_start(2, 0, i);
+        struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 2, 0, i, 1);
         aabb box = random_box(&s);
         ray r = i % 2 ? random_ray_towards(&s, box)
                       : random_ray_towards_an_edge(&s, box);
@@ -407,7 +407,7 @@ static void no_box_that_is_crossed_is_ever_lost(void)
 static void boxes_that_are_passed_by_are_missed(void)
 {
     for (uint64_t i = 0; i < 100000; i++) {
-        struct sampler s = sampler_start(3, 0, i);
+        struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 3, 0, i, 1);
         aabb box = random_box(&s);
         ray r = random_ray_towards(&s, box);
         vec3 extent = vec3_sub(box.upper, box.lower);
@@ -429,7 +429,7 @@ static void boxes_that_are_passed_by_are_missed(void)
 static void entry_and_exit_match(void)
 {
     for (uint64_t i = 0; i < 100000; i++) {
-        struct sampler s = sampler_start(4, 0, i);
+        struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 4, 0, i, 1);
         aabb box = random_box(&s);
         ray r = random_ray_towards(&s, box);
         float enter = -7.0f, leave = -7.0f;

@@ -70,7 +70,7 @@ static void make_random(uint32_t n, float size, float half)
 {
     make_room(n);
     for (uint32_t i = 0; i < n; i++) {
-        struct sampler s = sampler_start(1, n, i);
+        struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 1, n, i, 1);
         vec3 center = random_point(&s, size);
         boxes[i] = box_around(center, half * (0.1f + 0.9f * sampler_1d(&s)));
     }
@@ -268,7 +268,7 @@ static void sizes_from_1e_minus_6_to_1e6_give_a_tree(void)
     for (int random = 0; random < 2; random++) {
         make_room(5000);
         for (uint32_t i = 0; i < count; i++) {
-            struct sampler s = sampler_start(2, 0, i);
+            struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 2, 0, i, 1);
             float part = random ? sampler_1d(&s) : (float)i / 5000.0f;
             float x = 1e-6f * powf(1e12f, part);
             boxes[i] = box_around(vec3_make(x, x, -x), 0.3f * x);
@@ -391,7 +391,7 @@ static void check_any(ray r)
 /* From in or around the set, towards it; some have a range that ends soon. */
 static ray random_ray(uint64_t i, float size)
 {
-    struct sampler s = sampler_start(3, 0, i);
+    struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 3, 0, i, 1);
     vec3 from = random_point(&s, 2 * size);
     vec3 d = vec3_sub(random_point(&s, size), from);
     float t_max = sampler_1d(&s) < 0.3f ? sampler_1d(&s) : INFINITY;
@@ -451,7 +451,7 @@ static void balls_of_all_sizes_are_found(void)
 {
     make_room(500);
     for (uint32_t i = 0; i < count; i++) {
-        struct sampler s = sampler_start(4, 0, i);
+        struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 4, 0, i, 1);
         float size = 1e-6f * powf(1e12f, sampler_1d(&s));
         boxes[i] = box_around(random_point(&s, 2 * size), size);
     }
@@ -468,7 +468,7 @@ static void t_min_and_t_max_are_kept(void)
     make_random(500, 1, 0.1f);
     build();
     for (uint64_t i = 0; i < 2000; i++) {
-        struct sampler s = sampler_start(5, 0, i);
+        struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 5, 0, i, 1);
         ray r = random_ray(i, 1);
         r.t_min = sampler_1d(&s);
         r.t_max = r.t_min + 0.3f * sampler_1d(&s);

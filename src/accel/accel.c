@@ -1,9 +1,32 @@
 /* accel.c - see accel.h. */
 #include "accel/accel.h"
 
+#include <assert.h>
+#include <stddef.h>
+
 #include "base/memory.h"
 
-const char *const accel_names[] = {"bvh", "linear", NULL};
+#ifdef RAYBOOK_EMBREE
+#include "accel/embree.h"
+#endif
+
+const char *const accel_names[] = {"bvh", "linear", "embree", NULL};
+
+/* Embree may be missing from a build; nothing below is reached then. */
+#ifdef RAYBOOK_EMBREE
+static const bool with_embree = true;
+#else
+static const bool with_embree = false;
+#define embree_build(boxes, count) NULL
+#define embree_nearest(e, r, test, context, hit) false
+#define embree_any(e, r, test, context, hit) false
+#define embree_free(e) ((void)0)
+#endif
+
+bool accel_available(enum accel_kind kind)
+{
+    return kind != ACCEL_EMBREE || with_embree;
+}
 
 static void build_bvh(struct accel *a, const aabb boxes[], uint32_t order[])
 {
@@ -18,12 +41,14 @@ static void build_bvh(struct accel *a, const aabb boxes[], uint32_t order[])
 struct accel accel_build(enum accel_kind kind, const aabb boxes[],
                          uint32_t primitive_count, uint32_t order[])
 {
-    struct accel a = {kind, primitive_count, NULL, 0};
+    struct accel a = {kind, primitive_count, NULL, 0, NULL};
+    assert(accel_available(kind));
+    for (uint32_t i = 0; i < primitive_count; i++)
+        order[i] = i;
     if (kind == ACCEL_BVH)
         build_bvh(&a, boxes, order);
-    else
-        for (uint32_t i = 0; i < primitive_count; i++)
-            order[i] = i;
+    else if (kind == ACCEL_EMBREE)
+        a.embree = embree_build(boxes, primitive_count);
     return a;
 }
 
@@ -39,6 +64,8 @@ bool accel_nearest(const struct accel *a, ray *r, leaf_test_fn *test,
 {
     if (a->kind == ACCEL_LINEAR)
         return query_linear(a, r, test, context, hit);
+    if (a->kind == ACCEL_EMBREE)
+        return embree_nearest(a->embree, r, test, context, hit);
     const struct bvh tree = {a->nodes, a->node_count};
     return bvh_nearest(&tree, r, test, context, hit);
 }
@@ -48,6 +75,8 @@ bool accel_any(const struct accel *a, ray *r, leaf_test_fn *test,
 {
     if (a->kind == ACCEL_LINEAR)
         return query_linear(a, r, test, context, hit);
+    if (a->kind == ACCEL_EMBREE)
+        return embree_any(a->embree, r, test, context, hit);
     const struct bvh tree = {a->nodes, a->node_count};
     return bvh_any(&tree, r, test, context, hit);
 }
@@ -55,5 +84,7 @@ bool accel_any(const struct accel *a, ray *r, leaf_test_fn *test,
 void accel_free(struct accel *a)
 {
     mem_free(a->nodes);
+    embree_free(a->embree);
     a->nodes = NULL;
+    a->embree = NULL;
 }

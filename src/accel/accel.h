@@ -10,20 +10,27 @@
 #include "base/box.h"
 
 /* ACCEL_LINEAR has no structure: it tests everything, which is what the
- * others are measured and checked against. */
-enum accel_kind { ACCEL_BVH, ACCEL_LINEAR };
+ * others are measured and checked against. ACCEL_EMBREE is another's
+ * traversal of another's tree: accel/embree.h. */
+enum accel_kind { ACCEL_BVH, ACCEL_LINEAR, ACCEL_EMBREE };
 
 /* NULL-terminated, in the order of enum accel_kind. */
 extern const char *const accel_names[];
+
+struct embree;
 
 struct accel {
     enum accel_kind kind;
     uint32_t primitive_count;
     struct bvh_node *nodes; /* ACCEL_BVH */
     uint32_t node_count;
+    struct embree *embree; /* ACCEL_EMBREE */
 };
 
-/* Builds a structure over boxes[0 .. primitive_count - 1] and fills order
+/* Is this kind in this build? All are but, perhaps, ACCEL_EMBREE. */
+bool accel_available(enum accel_kind kind);
+
+/* Builds a structure of an available kind over boxes[0 .. primitive_count - 1] and fills order
  * (room for primitive_count) with the order in which its leaves name the
  * primitives. Release with accel_free. */
 struct accel accel_build(enum accel_kind kind, const aabb boxes[],

@@ -126,8 +126,8 @@ static struct choice choose_split(const struct builder *b,
         struct bin bins[BIN_COUNT];
         float lower = vec3_axis(bounds.lower, axis);
         float scale = BIN_COUNT / (vec3_axis(bounds.upper, axis) - lower);
-        if (!isfinite(scale))
-            continue; /* no extent, or too little to divide by */
+        if (!(scale > 0.0f && isfinite(scale)))
+            continue; /* no extent, or too little or too much to divide by */
         fill_bins(b, node, axis, lower, scale, bins);
         float cost = best.cost;
         int border = cheapest_border(bins, &cost);

@@ -9,8 +9,8 @@
 
 /* Tests the primitives order[first] .. order[first + count - 1] against the
  * ray. A hit within [t_min, t_max] is stored in *hit, r->t_max is lowered to
- * it, and the answer is true; otherwise nothing changes. context is the
- * caller's own. */
+ * it or to a little beyond it, and the answer is true; otherwise nothing
+ * changes. context is the caller's own. */
 typedef bool leaf_test_fn(const void *context, uint32_t first, uint32_t count,
                           ray *r, void *hit);
 

@@ -32,9 +32,11 @@ static inline aabb aabb_include(aabb a, vec3 point)
     return box;
 }
 
+/* Halves before it adds: corners near the end of a float's range must not
+ * overflow. */
 static inline vec3 aabb_centroid(aabb a)
 {
-    return vec3_scale(vec3_add(a.lower, a.upper), 0.5f);
+    return vec3_add(vec3_scale(a.lower, 0.5f), vec3_scale(a.upper, 0.5f));
 }
 
 /* Surface area; 0 for the empty box. */

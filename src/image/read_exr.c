@@ -265,16 +265,16 @@ static void release(exr_transcoding_pipeline_buffer_id_t use, void *buffer)
     free(buffer);
 }
 
-/* The library does the reading and decompressing, but two things not: a chunk
- * that compression would not make shorter stands in the file as it is, which
- * 3.1 does not know of B44. And it would convert and interleave too, but its way for half floats
- * writes through the null pointer of a channel that nobody wants; so ours. */
 static exr_result_t leave_unpacked(exr_decode_pipeline_t *decoder)
 {
     (void)decoder;
     return EXR_ERR_SUCCESS;
 }
 
+/* The library reads and decompresses, but for two things. Its own unpacking of
+ * half floats writes through the null pointer of a channel that nobody wants.
+ * And a chunk that compression would not make shorter stands in the file as it
+ * is, which 3.1 forgets for B44. */
 static exr_result_t decode(const struct exr_file *f,
                            exr_decode_pipeline_t *decoder)
 {

@@ -44,13 +44,13 @@ bool directional_light_sample(const struct light *light,
 
 float spot_light_falloff(const struct light *light, float cosine)
 {
-    if (cosine >= light->cos_inner)
+    float angle = acosf(fmaxf(-1.0f, fminf(1.0f, cosine)));
+    if (angle <= light->beam_angle)
         return 1.0f;
-    if (cosine <= light->cos_outer)
+    if (angle >= light->cutoff_angle)
         return 0.0f;
-    float x =
-        (cosine - light->cos_outer) / (light->cos_inner - light->cos_outer);
-    return x * x * (3.0f - 2.0f * x);
+    return (light->cutoff_angle - angle) /
+           (light->cutoff_angle - light->beam_angle);
 }
 
 bool spot_light_sample(const struct light *light, vec3 point,

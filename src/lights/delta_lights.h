@@ -18,9 +18,9 @@ bool directional_light_sample(const struct light *light,
 bool spot_light_sample(const struct light *light, vec3 point,
                        struct light_sample *out);
 
-/* The share of the spot's full intensity at an angle from its axis: 1 within
- * cos_inner, 0 beyond cos_outer, smoothstep of the cosine in between. A hard
- * edge where the two are equal. */
+/* The share of the spot's full intensity in a direction whose cosine with the
+ * axis is given: 1 within beam_angle, 0 beyond cutoff_angle, in between a
+ * straight line in the angle. A hard edge where the two are equal. */
 float spot_light_falloff(const struct light *light, float cosine);
 
 #endif

@@ -175,11 +175,14 @@ bool light_is_delta(const struct light *light)
     return !is_area_light(light) && light->kind != LIGHT_ENVIRONMENT;
 }
 
-/* Smoothstep is one half on average, so half of the ring between the two
- * cosines counts. */
+/* The integral of the falloff over the sphere: with beam b and cutoff c, 2 pi
+ * (1 - (sin c - sin b) / (c - b)). */
 static float spot_solid_angle(const struct light *light)
 {
-    return 2.0f * PI * (1.0f - 0.5f * (light->cos_inner + light->cos_outer));
+    float b = light->beam_angle, c = light->cutoff_angle;
+    if (!(c - b > 1e-4f)) /* a hard edge: the quotient's limit */
+        return 2.0f * PI * (1.0f - cosf(c));
+    return 2.0f * PI * (1.0f - (sinf(c) - sinf(b)) / (c - b));
 }
 
 float light_power(const struct light *light, float scene_radius)

@@ -31,8 +31,8 @@ enum light_kind {
  *
  * point: flux / 4 pi in every direction. directional: irradiance on a surface
  * that faces it, from infinitely far away. spot: intensity along its axis,
- * whole within cos_inner, falling smoothly (smoothstep of the cosine) to
- * nothing at cos_outer. The area lights emit `radiance` evenly from the side
+ * whole within beam_angle of it, falling evenly with the angle to nothing at
+ * cutoff_angle. The area lights emit `radiance` evenly from the side
  * that the geometric normal points to, and nothing from the other. */
 struct light {
     enum light_kind kind;
@@ -41,8 +41,8 @@ struct light {
     rgb flux;       /* point, W */
     rgb irradiance; /* directional, W m^-2 */
     rgb intensity;  /* spot, W sr^-1 */
-    float cos_inner, cos_outer;
-    rgb radiance; /* area lights, W m^-2 sr^-1 */
+    float beam_angle, cutoff_angle; /* spot, radians from the axis */
+    rgb radiance;                   /* area lights, W m^-2 sr^-1 */
     const struct rect *rect;
     const struct sphere *sphere;
     const struct mesh *mesh;

@@ -1,4 +1,4 @@
-/* rough_conductor.h - the material `roughconductor`: metal that is not polished.
+/* rough_conductor.h - the material `roughconductor`: unpolished metal.
  *
  * Torrance and Sparrow's model: the surface is made of tiny perfect mirrors,
  * whose normals are spread by the anisotropic GGX distribution D with
@@ -9,9 +9,9 @@
  * where h is halfway between the two directions, F the reflectance of the metal
  * (fresnel_conductor) and G1 Smith's share of mirrors that are not hidden from
  * a direction. Masking and shadowing are taken as independent, a product of
- * two, because Mitsuba's roughconductor does so; the height-correlated form is a
- * little brighter. Light that a mirror sends to another one is lost, so rough
- * metal is somewhat too dark.
+ * two, because Mitsuba's roughconductor does so; the height-correlated form is
+ * a little brighter. Light that a mirror sends to another one is lost, so
+ * rough metal is somewhat too dark.
  *
  * It is one-sided: black unless both directions are outside, by the geometric
  * and the shading normal both, as in diffuse.h.

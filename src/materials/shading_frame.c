@@ -1,21 +1,25 @@
 /* shading_frame.c - see shading_frame.h. */
 #include "materials/shading_frame.h"
 
+/* v less its part along the unit vector n. */
+static vec3 across(vec3 v, vec3 n)
+{
+    return vec3_step(v, -vec3_dot(v, n), n);
+}
+
 struct shading_frame shading_frame_make(const struct surface *s)
 {
     struct shading_frame f;
+    vec3 along = across(s->dp_du, s->shading_normal);
     f.z = s->shading_normal;
-    vec3 along = vec3_step(s->dp_du, -vec3_dot(s->dp_du, f.z), f.z);
-    vec3 x = vec3_normalize(along);
-    if (vec3_is_finite(x)) {
-        /* Once more: little of dp_du may have been left, and its rounding
-         * errors with it. */
-        x = vec3_normalize(vec3_step(x, -vec3_dot(x, f.z), f.z));
-        f.x = x;
-        f.y = vec3_cross(f.z, x);
-    } else {
+    /* Of less than this share of dp_du, rounding errors are a large part. */
+    if (!(vec3_length(along) > 1e-4f * vec3_length(s->dp_du))) {
         vec3_frame(f.z, &f.x, &f.y);
+        return f;
     }
+    /* Twice: the first time leaves errors the size of dp_du's. */
+    f.x = vec3_normalize(across(vec3_normalize(along), f.z));
+    f.y = vec3_cross(f.z, f.x);
     return f;
 }
 

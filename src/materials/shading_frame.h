@@ -13,8 +13,8 @@ struct shading_frame {
 };
 
 /* x is dp_du less its part along the shading normal (Gram and Schmidt). Where
- * that leaves nothing, as at the poles of a sphere, it is some direction at
- * right angles to the normal. */
+ * that leaves next to nothing, as at the poles of a sphere, it is some
+ * direction at right angles to the normal. */
 struct shading_frame shading_frame_make(const struct surface *s);
 
 /* A direction of the world in the frame's coordinates, and back. */

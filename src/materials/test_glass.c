@@ -39,13 +39,15 @@ static double oven(const struct material *m, const struct surface *s, vec3 o)
     return sum / (here * STEPS);
 }
 
+/* 1.05: where the two normals disagree, light still passes. */
 static void glass_keeps_an_oven_even(void)
 {
+    static const float etas[] = {1.5f, 0.7f, 1.05f};
     const struct surface surfaces[] = {flat_surface(), smooth_surface()};
     for (uint64_t i = 0; i < 300; i++) {
-        struct material m = clear_material(MATERIAL_GLASS, i % 2 ? 1.5f : 0.7f);
+        struct material m = clear_material(MATERIAL_GLASS, etas[i % 3]);
         vec3 o = some_direction(i);
-        TEST_ASSERT_DOUBLE_WITHIN(1e-5, 1.0, oven(&m, &surfaces[i % 3 / 2], o));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5, 1.0, oven(&m, &surfaces[i % 2], o));
     }
 }
 

@@ -44,7 +44,7 @@ struct view {
 
 static const float roughness[][2] = {
     {0.15f, 0.15f}, {0.3f, 0.3f}, {1.0f, 1.0f}, {0.15f, 0.5f}, {0.7f, 0.2f}};
-static const float angles[] = {0.0f, 0.7f, 1.2f, 1.5f};
+static const float angles[] = {0.0f, 0.7f, 1.1f, 1.4f};
 enum { METALS = 5, ANGLES = 4, VIEWS = (METALS + 2) * ANGLES };
 
 /* Five metals, a diffuse surface and one seen from behind, each from straight
@@ -92,8 +92,8 @@ static struct density_test over_hemisphere(const struct view *v)
                                 .pdf = view_pdf,
                                 .axis = behind ? vec3_negate(n) : n,
                                 .one_minus_cosine = 1.0,
-                                .rows = 20,
-                                .columns = 40,
+                                .rows = 16,
+                                .columns = 32,
                                 .subdivisions = 8,
                                 .samples = 100000};
     return test;
@@ -178,7 +178,7 @@ static void furnace_by_samples(const struct view *v, struct furnace *out)
 
 static void furnace_by_quadrature(const struct view *v, struct furnace *out)
 {
-    enum { ROWS = 400, COLUMNS = 200 };
+    enum { ROWS = 250, COLUMNS = 240 };
     struct density_test sphere = over_hemisphere(v);
     double cell = 2.0 * acos(-1.0) / (ROWS * COLUMNS);
     for (int i = 0; i < ROWS * COLUMNS; i++) {

@@ -229,8 +229,10 @@ static bool expect_turned(const struct material *m, const struct surface *s,
     if (!turned(m, s, o, geometric, &way) ||
         !turned(m, s, o_before, geometric, &before) ||
         !turned(m, s, o_after, geometric, &after) ||
+        before.transmitted != after.transmitted ||
         fabsf(vec3_dot(o, s->geometric_normal)) < 0.05f ||
-        fabsf(vec3_dot(way.incoming, s->geometric_normal)) < 0.3f)
+        fabsf(vec3_dot(way.incoming, s->geometric_normal)) < 0.3f ||
+        fabsf(vec3_dot(way.incoming, s->shading_normal)) < 0.3f)
         return false;
     ray r = ray_make(vec3_add(s->position, o), vec3_negate(o), 0.0f, INFINITY);
     struct ray_differential d = {.direction_dx = vec3_negate(x)};

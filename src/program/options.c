@@ -162,7 +162,11 @@ static bool set_accel(struct options *o, const char *name, const char *value,
     if (kind < 0)
         return false;
     o->accel = (enum accel_kind)kind;
-    return true;
+    return accel_available(o->accel) ||
+           error_set(err,
+                     "%s %s: this build has no Embree: install libembree-dev "
+                     "and build again",
+                     name, value);
 }
 
 static bool set_integrator(struct options *o, const char *name,
@@ -284,8 +288,8 @@ static const struct option {
      "intersection_test, direct, path, normal, depth, uv,\n"
      "bvh_cost or mip_level",
      set_integrator},
-    {"--accel", NULL, "NAME", "bvh (default) or linear (tests everything)",
-     set_accel},
+    {"--accel", NULL, "NAME",
+     "bvh (default), linear (tests everything) or embree", set_accel},
     {"--override", NULL, "JSON",
      "merged into the scene, such as\n"
      "'{\"film\": {\"resolution\": [64, 64]}}'",

@@ -63,8 +63,8 @@ static void load_cone(struct json_reader *j, const cJSON *node,
         json_fault(j, node,
                    "beam_angle is %g, expected at most cutoff_angle, %g",
                    (double)beam, (double)cutoff);
-    out->cos_outer = cosf(cutoff * (PI / 180.0f));
-    out->cos_inner = cosf(beam * (PI / 180.0f));
+    out->cutoff_angle = cutoff * (PI / 180.0f);
+    out->beam_angle = beam * (PI / 180.0f);
 }
 
 static void load_spot(struct json_reader *j, const cJSON *node,

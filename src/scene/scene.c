@@ -85,6 +85,8 @@ bool scene_prepare(struct scene *scene, enum accel_kind kind, struct error *err)
     return true;
 }
 
+#define NO_PRIMITIVE UINT32_MAX
+
 static bool test_primitive(const struct scene *scene, uint32_t index,
                            const ray *r, struct scene_hit *hit)
 {
@@ -103,18 +105,44 @@ static bool test_primitive(const struct scene *scene, uint32_t index,
     return true;
 }
 
+/* Is hit a at least as near as b? Where several primitives meet, the first of
+ * the file is the one that is hit: the answer must not depend on the order in
+ * which a structure asks. */
+static bool comes_first(const struct scene *scene, const struct scene_hit *a,
+                        const struct scene_hit *b)
+{
+    if (a->t != b->t || b->primitive == NO_PRIMITIVE)
+        return a->t <= b->t;
+    const struct primitive *p = &scene->primitives[a->primitive];
+    const struct primitive *q = &scene->primitives[b->primitive];
+    return p->object < q->object ||
+           (p->object == q->object && p->triangle < q->triangle);
+}
+
+/* Boxes and primitives round differently. A structure that is told to look a
+ * little further than the nearest hit does not pass over a box in which a hit
+ * of the same t lies. */
+static float a_little_beyond(float t)
+{
+    return t * (1.0f + 0x1p-20f);
+}
+
+/* out is the best so far; its t is the range's end as long as there is none,
+ * since the ray's own is a little beyond. */
 static bool test_nearest(const void *context, uint32_t first, uint32_t count,
                          ray *r, void *out)
 {
-    struct scene_hit *hit = out;
+    struct scene_hit *best = out, hit;
     bool found = false;
     counters_mine.leaves_visited++;
     counters_mine.primitives_tested += count;
-    for (uint32_t i = first; i < first + count; i++) {
-        if (!test_primitive(context, i, r, hit))
+    for (hit.primitive = first; hit.primitive < first + count;
+         hit.primitive++) {
+        if (!test_primitive(context, hit.primitive, r, &hit) ||
+            !comes_first(context, &hit, best))
             continue;
-        hit->primitive = i;
-        r->t_max = hit->t;
+        *best = hit;
+        r->t_max = a_little_beyond(hit.t);
         found = true;
     }
     return found;
@@ -123,10 +151,12 @@ static bool test_nearest(const void *context, uint32_t first, uint32_t count,
 static bool test_any(const void *context, uint32_t first, uint32_t count,
                      ray *r, void *out)
 {
+    const struct scene_hit *limit = out;
+    struct scene_hit hit;
     counters_mine.leaves_visited++;
     for (uint32_t i = first; i < first + count; i++) {
         counters_mine.primitives_tested++;
-        if (test_primitive(context, i, r, out))
+        if (test_primitive(context, i, r, &hit) && hit.t <= limit->t)
             return true;
     }
     return false;
@@ -135,8 +165,13 @@ static bool test_any(const void *context, uint32_t first, uint32_t count,
 bool scene_nearest(const struct scene *scene, const ray *r,
                    struct scene_hit *hit)
 {
-    ray shrinking = *r;
-    return accel_nearest(&scene->accel, &shrinking, test_nearest, scene, hit);
+    ray longer = *r;
+    struct scene_hit best = {NO_PRIMITIVE, r->t_max, 0.0f, 0.0f};
+    longer.t_max = a_little_beyond(r->t_max);
+    if (!accel_nearest(&scene->accel, &longer, test_nearest, scene, &best))
+        return false;
+    *hit = best;
+    return true;
 }
 
 struct surface scene_surface(const struct scene *scene, const ray *r,
@@ -156,9 +191,10 @@ struct surface scene_surface(const struct scene *scene, const ray *r,
 
 static bool blocked(const struct scene *scene, ray r)
 {
-    struct scene_hit hit;
+    struct scene_hit limit = {NO_PRIMITIVE, r.t_max, 0.0f, 0.0f};
     counters_mine.shadow_rays++;
-    return accel_any(&scene->accel, &r, test_any, scene, &hit);
+    r.t_max = a_little_beyond(r.t_max);
+    return accel_any(&scene->accel, &r, test_any, scene, &limit);
 }
 
 bool scene_segment_blocked(const struct scene *scene, const struct surface *s,

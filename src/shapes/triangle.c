@@ -6,34 +6,67 @@
 #include "base/todo.h"
 
 //> triangle.intersect: Find where a ray meets a triangle
+#ifndef TODO_triangle_intersect
+/* Vectors in double precision. Corners and rays are single, so differences are
+ * exact or nearly so, and thin and distant triangles keep their digits. */
+struct wide {
+    double x, y, z;
+};
+
+static struct wide widen(vec3 a)
+{
+    return (struct wide){(double)a.x, (double)a.y, (double)a.z};
+}
+
+static struct wide minus(struct wide a, struct wide b)
+{
+    return (struct wide){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static double dot(struct wide a, struct wide b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static struct wide cross(struct wide a, struct wide b)
+{
+    return (struct wide){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
+                         a.x * b.y - a.y * b.x};
+}
+#endif
+
 bool triangle_intersect(const vec3 p[3], const ray *r, struct triangle_hit *hit)
 {
 #ifndef TODO_triangle_intersect
     //> triangle.intersect.system: Set up the 3x3 system
-    vec3 edge1 = vec3_sub(p[1], p[0]);
-    vec3 edge2 = vec3_sub(p[2], p[0]);
-    vec3 normal = vec3_cross(edge1, edge2);
-    vec3 to_p0 = vec3_sub(p[0], r->origin);
-    vec3 moment = vec3_cross(r->direction, to_p0);
-    float determinant = vec3_dot(r->direction, normal);
+    struct wide p0 = widen(p[0]), direction = widen(r->direction);
+    struct wide edge1 = minus(widen(p[1]), p0);
+    struct wide edge2 = minus(widen(p[2]), p0);
+    struct wide normal = cross(edge1, edge2);
+    struct wide to_p0 = minus(p0, widen(r->origin));
+    struct wide moment = cross(direction, to_p0);
+    double determinant = dot(direction, normal);
     //< triangle.intersect.system
     //> triangle.intersect.solve: Solve it by Cramer's rule
-    /* A determinant of 0 makes these infinite or NaN, and one that overflows
-     * makes inverse 0. The test below is written as what must hold for a hit,
-     * so all of them are misses. */
-    float inverse = 1.0f / determinant;
-    float b1 = -vec3_dot(moment, edge2) * inverse;
-    float b2 = vec3_dot(moment, edge1) * inverse;
-    float t = vec3_dot(to_p0, normal) * inverse;
+    /* A determinant of 0 makes these infinite or NaN. The test below is
+     * written as what must hold for a hit, so both are misses. */
+    double inverse = 1.0 / determinant;
+    double b1 = -dot(moment, edge2) * inverse;
+    double b2 = dot(moment, edge1) * inverse;
+    double t = dot(to_p0, normal) * inverse;
     //< triangle.intersect.solve
     //> triangle.intersect.accept: Accept a point inside the triangle and range
-    bool inside = b1 >= 0.0f && b2 >= 0.0f && b1 + b2 <= 1.0f;
-    bool in_range = t >= r->t_min && t <= r->t_max;
-    if (!(inverse != 0.0f && inside && in_range))
+    /* More than the rounding of b1 and b2 while the triangle is seen from less
+     * than about 10^7 of its heights away. So each of two triangles takes a
+     * little of the other's side of their edge, and no ray slips between. */
+    const double slack = 0x1p-26;
+    bool inside = b1 >= -slack && b2 >= -slack && b1 + b2 <= 1.0 + slack;
+    bool in_range = t >= (double)r->t_min && t <= (double)r->t_max;
+    if (!(inverse != 0.0 && inside && in_range))
         return false;
-    hit->t = t;
-    hit->b1 = b1;
-    hit->b2 = b2;
+    hit->t = (float)t;
+    hit->b1 = (float)b1;
+    hit->b2 = (float)b2;
     return true;
     //< triangle.intersect.accept
 #else

@@ -8,8 +8,9 @@
 const char *const texture_wrap_names[] = {"repeat", "clamp", "mirror", "black",
                                           NULL};
 
-/* ---- sums of weighted colours, in double so that a mean keeps its digits */
+/* ---- means ---- */
 
+/* A sum of weighted colours, in double so that a mean keeps its digits. */
 struct color_sum {
     double r, g, b, weight;
 };
@@ -43,9 +44,10 @@ static int half_size(int size)
     return size > 1 ? size / 2 : 1;
 }
 
-/* A row of from texels and one of to texels lie on the same stretch, which is
- * from x to long: a texel of the first is then to long and one of the second
- * is from long, whole numbers all. This is how much of them overlaps. */
+/* A row of from texels and a row of to texels cover the same stretch. Let that
+ * be from * to long: then a texel of the first row has the length to and one
+ * of the second the length from, whole numbers all. This is how much two such
+ * texels overlap. */
 static int64_t overlap(int64_t from_index, int64_t from, int64_t to_index,
                        int64_t to)
 {
@@ -56,8 +58,8 @@ static int64_t overlap(int64_t from_index, int64_t from, int64_t to_index,
     return end - begin;
 }
 
-/* The texels of a row of from that the texel index of a row of to overlaps:
- * from first up to, not including, end. At most three of them. */
+/* Those of a row of from texels that a texel of a row of to overlaps: first up
+ * to, not including, end. Two when from is even, at most three when odd. */
 struct span {
     int first, end;
 };
@@ -81,7 +83,8 @@ static rgb covered_mean(const struct image *from, const struct image *to, int x,
         for (int i = columns.first; i < columns.end; i++) {
             double width = (double)overlap(i, from->width, x, to->width);
             double height = (double)overlap(j, from->height, y, to->height);
-            sum_add(&sum, from->pixels[(size_t)j * (size_t)from->width + i],
+            sum_add(&sum,
+                    from->pixels[(size_t)j * (size_t)from->width + (size_t)i],
                     width * height);
         }
     return sum_mean(&sum);
@@ -93,7 +96,7 @@ static struct image half_image(const struct image *from)
         image_make(half_size(from->width), half_size(from->height));
     for (int y = 0; y < to.height; y++)
         for (int x = 0; x < to.width; x++)
-            to.pixels[(size_t)y * (size_t)to.width + x] =
+            to.pixels[(size_t)y * (size_t)to.width + (size_t)x] =
                 covered_mean(from, &to, x, y);
     return to;
 }
@@ -248,46 +251,45 @@ static struct ellipse footprint_ellipse(struct step dx, struct step dy)
     return e;
 }
 
-/* The squares of the half axes: mean + spread and mean - spread. */
-struct axes {
-    double mean, spread;
-};
-
-static struct axes ellipse_axes(const struct ellipse *e)
+/* Makes the ellipse wider where its longest axis is more than ratio times its
+ * shortest: the longest stays, all others grow in proportion. The square of
+ * the shortest half axis comes out.
+ *
+ * The squares of the half axes are mean + spread and mean - spread; a matrix
+ * keep E + add I has the axes of E and the squares keep * square + add. */
+static double limit_anisotropy(struct ellipse *e, double ratio)
 {
-    struct axes a = {0.5 * (e->xx + e->yy),
-                     hypot(0.5 * (e->xx - e->yy), e->xy)};
-    return a;
+    double mean = 0.5 * (e->xx + e->yy);
+    double spread = hypot(0.5 * (e->xx - e->yy), e->xy);
+    double longest = mean + spread, shortest = mean - spread;
+    double wanted = longest / (ratio * ratio);
+    if (shortest >= wanted)
+        return shortest;
+    double keep = (longest - wanted) / (longest - shortest);
+    double add = wanted - keep * shortest;
+    e->xx = keep * e->xx + add;
+    e->xy = keep * e->xy;
+    e->yy = keep * e->yy + add;
+    return wanted;
 }
 
-/* The same longest axis, and the shortest such that its square is shortest:
- * every other diameter is in proportion. Returns the new ellipse. */
-static struct ellipse ellipse_widened(const struct ellipse *e,
-                                      const struct axes *a, double shortest)
-{
-    double keep = (a->mean + a->spread - shortest) / (2.0 * a->spread);
-    double add = shortest - keep * (a->mean - a->spread);
-    struct ellipse wide = {keep * e->xx + add, keep * e->xy,
-                           keep * e->yy + add};
-    return wide;
-}
-
-/* Squeezed along x or y where it reaches over so many repeats of the image
- * that more would not show: that bounds the work on images of a few texels. */
-static struct ellipse ellipse_limited(const struct ellipse *e,
-                                      const struct image *image)
+/* Squeezes the ellipse along x or y where it reaches over so many repeats of
+ * the image that more would not show: that bounds the work on images of a few
+ * texels. */
+static void limit_repeats(struct ellipse *e, const struct image *image)
 {
     const double repeats = 4.0;
     double x = fmin(1.0, repeats * image->width / sqrt(e->xx));
     double y = fmin(1.0, repeats * image->height / sqrt(e->yy));
-    struct ellipse limited = {e->xx * x * x, e->xy * x * y, e->yy * y * y};
-    return limited;
+    e->xx *= x * x;
+    e->xy *= x * y;
+    e->yy *= y * y;
 }
 
 /* The ellipse in texels of a level, blurred by bilinear interpolation.
  *
- * Interpolation blurs with a variance of 1/6 texel along each axis, and the
- * weights below have one of 0.21 on the unit circle: so the sum of texels that
+ * Interpolation blurs with a variance of 1/6 along each axis, and the weights
+ * below have one of 0.21 when the ellipse is the unit circle: so the sum of texels that
  * comes nearest to the integral over the interpolated image adds about 3/4 to
  * the squares of both axes. (Heckbert, whose texels are little Gaussians, adds
  * 1.) It also keeps the ellipse from falling between the texels. */
@@ -303,15 +305,15 @@ static struct ellipse ellipse_on_level(const struct ellipse *e,
     return on_level;
 }
 
-/* The Gaussian of a squared distance from the centre (1 on the ellipse), cut
- * off, without a step, where it has fallen to exp(-4). */
+/* Beyond this squared distance from the centre (1: on the ellipse) the weight
+ * is 0. */
 static const double weight_end = 2.0;
 
+/* A Gaussian, lowered so that it has no step at its end. */
 static double ewa_weight(double distance2)
 {
     const float lowest = 0.018315639f; /* exp(-2 weight_end) */
-    return distance2 < weight_end ? expf(-2.0f * (float)distance2) - lowest
-                                  : 0.0;
+    return fmaxf(expf(-2.0f * (float)distance2) - lowest, 0.0f);
 }
 
 /* One row of an ellipse: p' E^-1 p = from_row + ((x - middle) / half_width)^2 */
@@ -352,8 +354,9 @@ static rgb ewa_on_level(const struct mipmap *m, int level, vec2 uv,
     return sum_mean(&sum);
 }
 
-/* The shorter half axis is at least this many texels of the level used, so
- * that the box which made the level blurs less than the ellipse. */
+/* The shortest half axis is this many texels, or up to twice as many, of the
+ * finer level used: so the box that made the level blurs less than the
+ * ellipse. */
 static const double fewest_texels = 1.5;
 
 static const float most_anisotropy = 64.0f;
@@ -361,20 +364,15 @@ static const float most_anisotropy = 64.0f;
 rgb mipmap_ewa(const struct mipmap *m, vec2 uv, vec2 uv_dx, vec2 uv_dy,
                float max_anisotropy)
 {
-    struct ellipse e = footprint_ellipse(step_in_texels(&m->levels[0], uv_dx),
-                                         step_in_texels(&m->levels[0], uv_dy));
-    struct axes axes = ellipse_axes(&e);
-    double ratio = fminf(fmaxf(max_anisotropy, 1.0f), most_anisotropy);
-    double longest = axes.mean + axes.spread,
-           shortest = axes.mean - axes.spread;
-    if (!(longest > 0.0))
+    const struct image *image = &m->levels[0];
+    struct ellipse e = footprint_ellipse(step_in_texels(image, uv_dx),
+                                         step_in_texels(image, uv_dy));
+    if (e.xx + e.yy == 0.0)
         return mipmap_bilinear(m, 0, uv);
-    if (shortest < longest / (ratio * ratio)) {
-        shortest = longest / (ratio * ratio);
-        e = ellipse_widened(&e, &axes, shortest);
-    }
-    e = ellipse_limited(&e, &m->levels[0]);
-    float level = level_of_length(m, sqrt(shortest) / fewest_texels);
+    float ratio = fminf(fmaxf(max_anisotropy, 1.0f), most_anisotropy);
+    double shortest = sqrt(limit_anisotropy(&e, ratio));
+    limit_repeats(&e, image);
+    float level = level_of_length(m, shortest / fewest_texels);
     int fine = (int)level;
     rgb color = ewa_on_level(m, fine, uv, &e);
     if (fine == m->level_count - 1)

@@ -28,9 +28,13 @@ struct mipmap {
 };
 
 /* Takes the image over and builds the smaller levels; whole false: only level
- * 0. Release with mipmap_free. */
+ * 0. The image has at least one texel and at most 2^26 a side, and its values
+ * are finite. Release with mipmap_free. */
 struct mipmap mipmap_make(struct image image, enum texture_wrap wrap,
                           bool whole);
+
+/* In all lookups a coordinate that is NaN or infinite counts as 0, and so does
+ * a footprint's step. level is one that there is. */
 
 /* The texel in column x, row y of a level, after the wrap; any x and y. */
 rgb mipmap_texel(const struct mipmap *m, int level, int x, int y);
@@ -49,9 +53,14 @@ float mipmap_level(const struct mipmap *m, vec2 uv_dx, vec2 uv_dy);
 /* Between the two levels around mipmap_level, each bilinear. */
 rgb mipmap_trilinear(const struct mipmap *m, vec2 uv, vec2 uv_dx, vec2 uv_dy);
 
-/* Elliptically weighted average: a Gaussian over the ellipse that the
- * footprint makes, on the level that fits its shorter axis; ellipses longer
- * than max_anisotropy times their width are made wider.
+/* Elliptically weighted average: the mean over the points uv + s uv_dx +
+ * t uv_dy weighted by a Gaussian, exp(-2 q) - exp(-4) where q = s^2 + t^2 is
+ * below 2, summed over texels. The ellipse q = 1 is made wider when its longest
+ * axis is more than max_anisotropy (1 .. 64) times its shortest. The sum is
+ * taken on the two levels around that on which the shortest half axis is 1.5
+ * texels, and blended; an ellipse narrower than that uses level 0, and none at
+ * all (both steps zero) is a bilinear lookup. The mipmap must be whole: then a
+ * lookup reads at most some hundred texels for each unit of max_anisotropy.
  *
  * Source: N. Greene and P. Heckbert, "Creating Raster Omnimax Images from
  * Multiple Perspective Views Using the Elliptical Weighted Average Filter",

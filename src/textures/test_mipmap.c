@@ -372,30 +372,35 @@ static void test_hostile_coordinates_and_footprints(void)
 static void test_what_is_not_finite_counts_as_zero(void)
 {
     state = 17;
-    struct mipmap m = mipmap_make(random_image(16, 16), WRAP_REPEAT, true);
-    vec2 zero = vec2_make(0, 0), bad = vec2_make(NAN, INFINITY);
-    TEST_ASSERT_EQUAL_FLOAT(mipmap_bilinear(&m, 0, zero).r,
-                            mipmap_bilinear(&m, 0, bad).r);
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, mipmap_level(&m, bad, zero));
-    TEST_ASSERT_EQUAL_FLOAT(mipmap_bilinear(&m, 0, zero).r,
-                            mipmap_ewa(&m, zero, bad, zero, 8).r);
-    mipmap_free(&m);
+    for (int wrap = WRAP_REPEAT; wrap <= WRAP_BLACK; wrap++) {
+        struct mipmap m =
+            mipmap_make(random_image(17, 13), (enum texture_wrap)wrap, true);
+        vec2 zero = vec2_make(0, 0), bad = vec2_make(NAN, INFINITY);
+        TEST_ASSERT_EQUAL_FLOAT(mipmap_nearest(&m, 0, zero).r,
+                                mipmap_nearest(&m, 0, bad).r);
+        TEST_ASSERT_EQUAL_FLOAT(mipmap_bilinear(&m, 0, zero).r,
+                                mipmap_bilinear(&m, 0, bad).r);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, mipmap_level(&m, bad, zero));
+        TEST_ASSERT_EQUAL_FLOAT(mipmap_bilinear(&m, 0, zero).r,
+                                mipmap_ewa(&m, zero, bad, zero, 8).r);
+        mipmap_free(&m);
+    }
 }
 
 /* ---- EWA ---- */
 
-/* An ellipse by its half axes in texels of a square image and two angles: the
+/* An ellipse on level 0 by its half axes in texels and two angles: the
  * direction of the longer axis, and which points of the circle dx and dy are
  * the images of. */
-static void footprint(double longer, double shorter, double angle, double start,
-                      int size, vec2 *dx, vec2 *dy)
+static void footprint(const struct mipmap *m, double longer, double shorter,
+                      double angle, double start, vec2 *dx, vec2 *dy)
 {
+    double w = m->levels[0].width, h = m->levels[0].height;
     double ca = cos(angle), sa = sin(angle), cs = cos(start), ss = sin(start);
-    double a = longer / size, b = shorter / size;
-    *dx = vec2_make((float)(ca * a * cs - sa * b * ss),
-                    (float)(sa * a * cs + ca * b * ss));
-    *dy = vec2_make((float)(-ca * a * ss - sa * b * cs),
-                    (float)(-sa * a * ss + ca * b * cs));
+    *dx = vec2_make((float)((ca * longer * cs - sa * shorter * ss) / w),
+                    (float)((sa * longer * cs + ca * shorter * ss) / h));
+    *dy = vec2_make((float)((-ca * longer * ss - sa * shorter * cs) / w),
+                    (float)((-sa * longer * ss + ca * shorter * cs) / h));
 }
 
 /* The definition, by brute force: the mean over the points uv + s dx + t dy of
@@ -429,8 +434,8 @@ static void check_against_integral(double most_anisotropy)
         vec2 dx, dy, uv = vec2_make((float)uniform(), (float)uniform());
         double shorter = 0.75 + 0.75 * uniform();
         double ratio = 1.0 + (most_anisotropy - 1.0) * uniform();
-        footprint(ratio * shorter, shorter, 6.3 * uniform(), 6.3 * uniform(),
-                  64, &dx, &dy);
+        footprint(&m, ratio * shorter, shorter, 6.3 * uniform(),
+                  6.3 * uniform(), &dx, &dy);
         TEST_ASSERT_DOUBLE_WITHIN(0.01, integral(&m, 0, uv, dx, dy),
                                   mipmap_ewa(&m, uv, dx, dy, 16).g);
     }
@@ -451,22 +456,29 @@ static void test_ewa_of_ellipses_is_the_gaussian_integral(void)
 
 /* Larger ellipses use smaller levels. A blend of the integrals over the two
  * levels' own images is what is meant. */
-static void test_ewa_of_large_ellipses_is_the_integral_over_two_levels(void)
+static void check_two_levels(int width, int height, double largest)
 {
-    state = 20;
-    struct mipmap m = mipmap_make(random_image(64, 64), WRAP_REPEAT, true);
+    struct mipmap m =
+        mipmap_make(random_image(width, height), WRAP_REPEAT, true);
     for (int i = 0; i < 50; i++) {
         vec2 dx, dy, uv = vec2_make((float)uniform(), (float)uniform());
-        double shorter = exp2(1.0 + 2.0 * uniform());
+        double shorter = 2.0 * pow(largest / 4.0, uniform());
         double level = log2(shorter / 1.5);
         int fine = (int)level;
-        footprint((1 + 3 * uniform()) * shorter, shorter, 6.3 * uniform(),
-                  6.3 * uniform(), 64, &dx, &dy);
+        footprint(&m, (1 + uniform()) * shorter, shorter, 6.3 * uniform(),
+                  6.3 * uniform(), &dx, &dy);
         double want = (fine + 1 - level) * integral(&m, fine, uv, dx, dy) +
                       (level - fine) * integral(&m, fine + 1, uv, dx, dy);
         TEST_ASSERT_DOUBLE_WITHIN(0.01, want, mipmap_ewa(&m, uv, dx, dy, 16).g);
     }
     mipmap_free(&m);
+}
+
+static void test_ewa_of_large_ellipses_is_the_integral_over_two_levels(void)
+{
+    state = 20;
+    check_two_levels(90, 37, 16.0);
+    check_two_levels(64, 2, 8.0); /* levels of 32 x 1, 16 x 1 ... */
 }
 
 /* And how far the levels themselves are from the integral over the image: a
@@ -479,7 +491,7 @@ static void test_ewa_is_much_nearer_to_the_integral_than_trilinear(void)
     for (int i = 0; i < 50; i++) {
         vec2 dx, dy, uv = vec2_make((float)uniform(), (float)uniform());
         double shorter = exp2(-0.5 + 2.5 * uniform());
-        footprint(6 * shorter, shorter, 6.3 * uniform(), 6.3 * uniform(), 64,
+        footprint(&m, 6 * shorter, shorter, 6.3 * uniform(), 6.3 * uniform(),
                   &dx, &dy);
         double want = integral(&m, 0, uv, dx, dy);
         ewa += pow(mipmap_ewa(&m, uv, dx, dy, 16).g - want, 2.0);
@@ -496,7 +508,7 @@ static void test_ewa_level_is_that_of_the_shorter_axis(void)
     for (double level = 0.0; level < 4.0; level += 0.04) {
         vec2 dx, dy, uv = vec2_make((float)uniform(), (float)uniform());
         double shorter = 1.5 * exp2(level);
-        footprint(5 * shorter, shorter, 6.3 * uniform(), 6.3 * uniform(), 256,
+        footprint(&m, 5 * shorter, shorter, 6.3 * uniform(), 6.3 * uniform(),
                   &dx, &dy);
         TEST_ASSERT_DOUBLE_WITHIN(0.1, level, mipmap_ewa(&m, uv, dx, dy, 16).r);
     }
@@ -508,12 +520,12 @@ static void test_ewa_honours_the_largest_anisotropy(void)
     struct mipmap m = level_pyramid(256);
     vec2 dx, dy, uv = vec2_make(0.2f, 0.7f);
     for (int most = 1; most <= 32; most *= 2) {
-        footprint(48, 0.01, 0.3, 1.1, 256, &dx, &dy);
+        footprint(&m, 48, 0.01, 0.3, 1.1, &dx, &dy);
         TEST_ASSERT_DOUBLE_WITHIN(0.1, log2(48.0 / most / 1.5),
                                   mipmap_ewa(&m, uv, dx, dy, (float)most).r);
     }
     /* narrow enough already: no change */
-    footprint(12, 3, 0.3, 1.1, 256, &dx, &dy);
+    footprint(&m, 12, 3, 0.3, 1.1, &dx, &dy);
     TEST_ASSERT_EQUAL_FLOAT(mipmap_ewa(&m, uv, dx, dy, 4.01f).r,
                             mipmap_ewa(&m, uv, dx, dy, 32).r);
     mipmap_free(&m);
@@ -525,7 +537,7 @@ static void test_ewa_widens_to_an_ellipse(void)
     state = 23;
     struct mipmap m = mipmap_make(random_image(64, 64), WRAP_REPEAT, true);
     vec2 dx, dy, along, none = vec2_make(0, 0), uv = vec2_make(0.4f, 0.1f);
-    footprint(4, 1, 0.9, 0, 64, &dx, &dy);
+    footprint(&m, 4, 1, 0.9, 0, &dx, &dy);
     along = dx;
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, mipmap_ewa(&m, uv, dx, dy, 16).g,
                              mipmap_ewa(&m, uv, along, none, 4).g);
@@ -539,8 +551,8 @@ static void test_ewa_depends_on_the_ellipse_only(void)
     struct mipmap m = mipmap_make(random_image(64, 64), WRAP_MIRROR, true);
     vec2 dx, dy, dx2, dy2, uv = vec2_make(0.4f, 0.1f);
     for (double start = 0.1; start < 6.0; start += 0.5) {
-        footprint(9, 2, 0.7, 0, 64, &dx, &dy);
-        footprint(9, 2, 0.7, start, 64, &dx2, &dy2);
+        footprint(&m, 9, 2, 0.7, 0, &dx, &dy);
+        footprint(&m, 9, 2, 0.7, start, &dx2, &dy2);
         TEST_ASSERT_FLOAT_WITHIN(1e-4f, mipmap_ewa(&m, uv, dx, dy, 16).r,
                                  mipmap_ewa(&m, uv, dx2, dy2, 16).r);
     }

@@ -27,7 +27,8 @@ struct texture {
 rgb texture_color(const struct texture *texture,
                   const struct texture_point *at);
 
-/* The mean colour over the unit square of texture coordinates. */
+/* The mean colour over the unit square of texture coordinates; of an image the
+ * mean of its texels, whatever scale and delta are. */
 rgb texture_mean(const struct texture *texture);
 
 /* Does a lookup use uv_dx and uv_dy? */

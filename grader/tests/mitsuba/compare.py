@@ -19,10 +19,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-
 from convert import convert
 from make_images import make_images
 from mitsuba_types import load_mitsuba
+
 from raybook_grader.judge.bias import verdict
 from raybook_grader.judge.exr import read_exr
 from raybook_grader.judge.findings import BiasVerdict
@@ -79,7 +79,9 @@ def reference_of(path: Path, spp: int) -> ReferenceStatistics:
     return reduce_reference(chunks(), chunk_spp, REFERENCE_CHUNKS)
 
 
-def our_renders(path: Path, options: Options, folder: Path, seeds: Sequence[int]) -> Iterator[Image]:
+def our_renders(
+    path: Path, options: Options, folder: Path, seeds: Sequence[int]
+) -> Iterator[Image]:
     """One image a seed."""
     out = folder / "ours.exr"
     for seed in seeds:

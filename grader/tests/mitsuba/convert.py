@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
 from convert_lights import convert_environment, convert_light, point
 from convert_textures import FLIP_V, Matrix, NoCounterpart, convert_material, convert_texture
 from mitsuba_types import Plugin, load_mitsuba, rgb

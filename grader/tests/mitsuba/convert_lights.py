@@ -3,10 +3,9 @@
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
-
 from convert_textures import NoCounterpart, read_image
 from mitsuba_types import Plugin, load_mitsuba, rgb
+from numpy.typing import NDArray
 
 FALLOFF_SIDE = 1024
 """Texels of the picture of a spot light's falloff: interpolated to 1e-5."""

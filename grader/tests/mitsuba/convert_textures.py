@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from mitsuba_types import Plugin, load_mitsuba, rgb
 from numpy.typing import NDArray
 
-from mitsuba_types import Plugin, load_mitsuba, rgb
 from raybook_grader.judge.exr import read_exr
 
 Matrix = NDArray[np.float64]

@@ -21,7 +21,8 @@ def sky(width: int = 64, height: int = 32) -> NDArray[np.float32]:
     rows, columns = np.mgrid[0:height, 0:width]
     v, u = (rows + 0.5) / height, (columns + 0.5) / width
     image = np.stack([0.2 + 0.3 * v, 0.3 + 0.1 * v, 0.9 - 0.7 * v], axis=-1)
-    for color, (u0, v0, size) in (((2.0, 0.1, 0.1), (0.2, 0.4, 0.06)), ((0.1, 1.5, 0.1), (0.7, 0.7, 0.1))):
+    blobs = (((2.0, 0.1, 0.1), (0.2, 0.4, 0.06)), ((0.1, 1.5, 0.1), (0.7, 0.7, 0.1)))
+    for color, (u0, v0, size) in blobs:
         blob = np.exp(-((u - u0) ** 2 + (v - v0) ** 2) / size**2)
         image += blob[..., None] * np.array(color)
     image[9, 20:22] = (600.0, 500.0, 400.0)
@@ -45,7 +46,8 @@ def write_png(path: Path, pixels: NDArray[np.uint8]) -> None:
 
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
     parts = (chunk(b"IHDR", header), chunk(b"IDAT", zlib.compress(rows)), chunk(b"IEND", b""))
-    write_aside(path, lambda temporary: temporary.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(parts)))
+    data = b"\x89PNG\r\n\x1a\n" + b"".join(parts)
+    write_aside(path, lambda temporary: temporary.write_bytes(data))
 
 
 def make_images(folder: Path) -> None:

@@ -1,0 +1,129 @@
+"""All accelerators find the same hits, bit for bit, and a closed mesh leaks no ray.
+
+Six meshes, four kinds of rays, half of them from inside where there is an inside; see hits.c.
+`make test` casts 120,000 rays. RAYBOOK_FULL=1 casts 10,000,002: about ten minutes. Testing every
+triangle is slow, so only as many rays are checked against that as LINEAR_TESTS allows: with the
+full number the cube's all, 160,000 of the slivers', 4,000 of the knot's.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from hit_meshes import HitMesh, hit_meshes
+
+CHECKOUT = Path(__file__).resolve().parents[3]
+FULL = os.environ.get("RAYBOOK_FULL") == "1"
+RAYS = 1_666_667 if FULL else 20_000
+LINEAR_TESTS = 400_000_000 if FULL else 8_000_000
+"""How many ray-triangle tests a mesh's check against testing everything may take."""
+
+NAMES = ("knot", "ball", "cube", "terrain", "slivers", "boulder")
+
+
+@dataclass(frozen=True)
+class Workshop:
+    """Links hits.c with the renderer's objects, one of them perhaps made anew."""
+
+    folder: Path
+
+    def program(self, source: str = "", old: str = "", new: str = "") -> Path:
+        """hits, with a text in one source (src/...) replaced."""
+        objects = _words("list-objects")
+        changed = []
+        if source:
+            text = (CHECKOUT / source).read_text()
+            assert text.count(old) == 1, f"{source} no longer says {old!r} once"
+            mutant = self.folder / Path(source).name
+            mutant.write_text(text.replace(old, new))
+            objects = [path for path in objects if not path.endswith(f"{mutant.stem}.o")]
+            changed = [str(mutant)]
+        out = self.folder / f"hits{len(list(self.folder.glob('hits*')))}"
+        main = str(CHECKOUT / "grader" / "tests" / "renderer" / "hits.c")
+        command = [*_words("list-compiler"), *changed, main, *objects]
+        subprocess.run(
+            [*command, *_words("list-libraries"), "-o", str(out)], cwd=CHECKOUT, check=True
+        )
+        return out
+
+    def hits(self, program: Path, mesh: HitMesh, rays: int) -> dict[str, int]:
+        """What hits says."""
+        obj, inside = mesh.write(self.folder, "mesh")
+        linear = min(rays, LINEAR_TESTS // mesh.obj.count("\nf "))
+        command = [program, obj, inside, str(rays), "1", str(linear)]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        counts: dict[str, int] = json.loads(done.stdout)
+        print(done.stdout, done.stderr)
+        return counts
+
+
+def _words(target: str) -> list[str]:
+    make = ["make", "-s", target]
+    said = subprocess.run(make, cwd=CHECKOUT, check=True, capture_output=True, text=True).stdout
+    return said.splitlines()[-1].split()
+
+
+@pytest.fixture(scope="module")
+def workshop(tmp_path_factory: pytest.TempPathFactory) -> Workshop:
+    return Workshop(tmp_path_factory.mktemp("hits"))
+
+
+@pytest.fixture(scope="module")
+def program(workshop: Workshop) -> Path:
+    return workshop.program()
+
+
+@pytest.fixture(scope="module")
+def meshes() -> dict[str, HitMesh]:
+    made = hit_meshes()
+    assert tuple(made) == NAMES
+    return made
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_all_accelerators_agree_and_nothing_leaks(
+    workshop: Workshop, program: Path, meshes: dict[str, HitMesh], name: str
+) -> None:
+    mesh = meshes[name]
+    counts = workshop.hits(program, mesh, RAYS)
+    assert counts["rays"] == RAYS
+    assert counts["hits"] > RAYS / 2
+    assert counts["linear_rays"] >= min(RAYS, 75)
+    assert counts["linear_differs"] == 0
+    assert counts["embree_differs"] == 0
+    assert counts["any_differs"] == 0
+    assert counts["from_inside"] == (RAYS // 2 if mesh.inside else 0)
+    assert counts["leaks"] == 0
+
+
+def test_embree_is_compared_where_it_is_installed(
+    workshop: Workshop, program: Path, meshes: dict[str, HitMesh]
+) -> None:
+    installed = Path("/usr/include/embree3/rtcore.h").is_file()
+    assert workshop.hits(program, meshes["cube"], 10)["embree"] == installed
+
+
+def test_seams_open_by_a_millionth_leak(workshop: Workshop, meshes: dict[str, HitMesh]) -> None:
+    program = workshop.program("src/shapes/triangle.c", "0x1p-26", "-0x1p-20")
+    assert workshop.hits(program, meshes["ball"], RAYS)["leaks"] > 0
+
+
+def test_a_box_that_is_too_small_shows(workshop: Workshop, meshes: dict[str, HitMesh]) -> None:
+    program = workshop.program(
+        "src/accel/aabb.c", "slack = 1.0f + 6.0f * 0x1p-24f", "slack = 0.99f"
+    )
+    counts = workshop.hits(program, meshes["boulder"], 20_000)
+    assert counts["linear_differs"] > 0
+    assert counts["leaks"] > 0
+
+
+def test_the_first_of_equally_near_triangles_is_hit_whatever_the_order(
+    workshop: Workshop, meshes: dict[str, HitMesh]
+) -> None:
+    program = workshop.program("src/scene/scene.c", "p->triangle < q->triangle", "true")
+    assert workshop.hits(program, meshes["cube"], 20_000)["linear_differs"] > 0
