@@ -25,9 +25,11 @@ bool replace_begin(struct replacement *r, const char *path, struct error *err)
     int b = snprintf(r->temporary, sizeof r->temporary, "%s.XXXXXX", path);
     if (a >= REPLACE_PATH_SIZE || b >= REPLACE_PATH_SIZE)
         return error_set(err, "%.80s...: the path is too long", path);
-    struct stat there;
-    if (stat(path, &there) == 0 && S_ISDIR(there.st_mode))
-        return error_set(err, "%s: cannot write: it is a folder", path);
+    struct stat there; /* renaming would put a file in a device's place */
+    if (stat(path, &there) == 0 && !S_ISREG(there.st_mode))
+        return error_set(err, "%s: cannot write: it is a %s", path,
+                         S_ISDIR(there.st_mode) ? "folder"
+                                                : "device or pipe, not a file");
     int descriptor = mkstemp(r->temporary);
     if (descriptor < 0)
         return error_set(err, "%s: cannot write: %s", path, strerror(errno));
