@@ -153,7 +153,7 @@ void load_camera(struct json_reader *j, const cJSON *node, struct scene *scene)
     c->look_at = json_vec3(j, json_get(node, "look_at"), vec3_make(0, 0, 0));
     c->up = json_vec3(j, json_get(node, "ref_up"), vec3_make(0, 1, 0));
     c->vertical_fov = json_float(j, json_get(node, "fov"), fov, 45.0f);
-    /* A pinhole's picture does not depend on it; the course's scenes have it. */
+    /* No part of a pinhole's picture; the course's scenes have it. */
     json_float(j, json_get(node, "focal_length"), above_zero, 1.0f);
     check_frame(j, node, c);
 }
