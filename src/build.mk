@@ -43,7 +43,7 @@ libraries_cflags := $(patsubst -I%,-isystem%,$(filter -I%,$(shell \
     pkg-config --cflags OpenEXR libcjson stb 2>/dev/null)))
 ldlibs := $(shell pkg-config --libs-only-L OpenEXR libcjson stb 2>/dev/null) \
     $(filter -lOpenEXRCore%,$(shell pkg-config --libs OpenEXR 2>/dev/null)) \
-    -lcjson -lstb -lm
+    -lcjson -lm
 
 # Embree, if it is there: it has no pkg-config file. EMBREE=no builds without.
 EMBREE ?= $(if $(shell echo '\#include <embree3/rtcore.h>' | $(CC) -E -x c - 2>/dev/null),yes,no)
@@ -78,6 +78,9 @@ $(objdir)/%.o: $(VARIANT)/src/%.c src/%.c $(stamp)
 	@nm --defined-only --extern-only --format=posix $@.contract | cut -d' ' -f1 > $@.symbols
 	@objcopy --keep-global-symbols=$@.symbols $@.all $@
 endif
+
+# Others' code, which shifts into the sign here and there; memory is watched.
+$(objdir)/image/stb_library.o: cflags += $(if $(filter asan,$(OPT)),-fno-sanitize=undefined)
 
 $(objdir)/main.o $(objdir)/program/results.o: cflags += -DRAYBOOK_VERSION='"$(VERSION)"' \
     -DRAYBOOK_VARIANT='"$(or $(variant_name),reference)$(TODO:%= TODO_%)"'

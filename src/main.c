@@ -7,6 +7,7 @@
 #include "program/results.h"
 #include "program/session.h"
 #include "program/version.h"
+#include "scene/json_reader.h"
 
 enum { EXIT_BAD_INPUT = 2 };
 
@@ -41,6 +42,7 @@ int main(int argc, char *argv[])
     struct session s;
     struct error err = {""};
     memset(&s, 0, sizeof s);
+    json_set_up();
     int code = EXIT_BAD_INPUT;
     if (options_parse(argc, argv, &s.options, &err))
         code = run(&s, argc, argv, &err);

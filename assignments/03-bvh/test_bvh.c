@@ -18,7 +18,7 @@
 /* One set of primitives at a time, its tree, and the work done on it. */
 static aabb *boxes;
 static struct bvh_node *nodes;
-static uint32_t *order;
+static uint32_t *permutation;
 static uint32_t count;
 static struct bvh tree;
 static uint64_t leaves_tested, balls_tested;
@@ -27,7 +27,7 @@ void setUp(void)
 {
     boxes = NULL;
     nodes = NULL;
-    order = NULL;
+    permutation = NULL;
     count = 0;
 }
 
@@ -35,7 +35,7 @@ void tearDown(void)
 {
     free(boxes);
     free(nodes);
-    free(order);
+    free(permutation);
 }
 
 /* Making sets of boxes ----------------------------------------------------- */
@@ -46,9 +46,9 @@ static void make_room(uint32_t n)
     count = n;
     boxes = calloc(n + 1, sizeof *boxes);
     nodes = calloc(n > 1 ? 2 * (size_t)n - 1 : 1, sizeof *nodes);
-    order = malloc((n + 1) * sizeof *order);
-    TEST_ASSERT_TRUE(boxes != NULL && nodes != NULL && order != NULL);
-    memset(order, 0xff, (n + 1) * sizeof *order);
+    permutation = malloc((n + 1) * sizeof *permutation);
+    TEST_ASSERT_TRUE(boxes != NULL && nodes != NULL && permutation != NULL);
+    memset(permutation, 0xff, (n + 1) * sizeof *permutation);
 }
 
 static aabb box_around(vec3 center, float half)
@@ -79,7 +79,7 @@ static void make_random(uint32_t n, float size, float half)
 static void build(void)
 {
     tree.nodes = nodes;
-    tree.node_count = bvh_build(boxes, count, nodes, order);
+    tree.node_count = bvh_build(boxes, count, nodes, permutation);
 }
 
 /* Is the tree one? --------------------------------------------------------- */
@@ -97,25 +97,25 @@ static void check_order(void)
 {
     unsigned char *seen = calloc(count + 1, 1);
     for (uint32_t i = 0; i < count; i++) {
-        TEST_ASSERT_TRUE_MESSAGE(order[i] < count,
-                                 "order[] names primitives 0 to n - 1");
-        TEST_ASSERT_FALSE_MESSAGE(seen[order[i]],
-                                  "order[] names a primitive twice");
-        seen[order[i]] = 1;
+        TEST_ASSERT_TRUE_MESSAGE(permutation[i] < count,
+                                 "permutation[] names primitives 0 to n - 1");
+        TEST_ASSERT_FALSE_MESSAGE(seen[permutation[i]],
+                                  "permutation[] names a primitive twice");
+        seen[permutation[i]] = 1;
     }
     free(seen);
 }
 
-/* Notes that the leaf holds its places of order[]. */
+/* Notes that the leaf holds its places of permutation[]. */
 static void check_leaf(const struct bvh_node *leaf, unsigned char *held)
 {
     TEST_ASSERT_TRUE_MESSAGE(leaf->first < count &&
                                  leaf->count <= count - leaf->first,
-                             "a leaf's range lies within order[]");
+                             "a leaf's range lies within permutation[]");
     for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++) {
         TEST_ASSERT_FALSE_MESSAGE(held[i], "a primitive is in two leaves");
         held[i] = 1;
-        expect_inside(boxes[order[i]], leaf->box,
+        expect_inside(boxes[permutation[i]], leaf->box,
                       "a leaf's box holds its primitives' boxes");
     }
 }
@@ -138,12 +138,12 @@ static void check_children(const struct bvh_node *node, unsigned char *parented)
 static uint32_t check_nodes(unsigned char *held, unsigned char *parented)
 {
     struct {
-        uint32_t node;
+        uint32_t index;
         int depth;
     } waiting[BVH_MAX_DEPTH + 1] = {{0, 1}};
     uint32_t visited = 0;
     for (int size = 1; size > 0; visited++) {
-        uint32_t node = waiting[--size].node;
+        uint32_t node = waiting[--size].index;
         int depth = waiting[size].depth;
         TEST_ASSERT_TRUE_MESSAGE(depth <= BVH_MAX_DEPTH,
                                  "no leaf is deeper than BVH_MAX_DEPTH");
@@ -153,7 +153,7 @@ static uint32_t check_nodes(unsigned char *held, unsigned char *parented)
         }
         check_children(&nodes[node], parented);
         for (uint32_t i = 0; i < 2; i++) {
-            waiting[size].node = nodes[node].first + i;
+            waiting[size].index = nodes[node].first + i;
             waiting[size++].depth = depth + 1;
         }
     }
@@ -248,13 +248,13 @@ static void two_piles_of_equal_boxes_give_a_tree(void)
 /* Boxes in a plane, on a line and without any extent. */
 static void flat_boxes_give_a_tree(void)
 {
-    for (int axis = 0; axis < 3; axis++) {
+    for (int flat = 0; flat < 3; flat++) {
         make_random(2000, 1, 0.1f);
         for (uint32_t i = 0; i < count; i++) {
             boxes[i].lower.y = boxes[i].upper.y = 0;
-            if (axis > 0)
+            if (flat > 0)
                 boxes[i].lower.z = boxes[i].upper.z = 7;
-            if (axis > 1)
+            if (flat > 1)
                 boxes[i].upper.x = boxes[i].lower.x;
         }
         build_and_check();
@@ -350,9 +350,9 @@ static bool test_balls(const void *context, uint32_t first, uint32_t n, ray *r,
     leaves_tested++;
     balls_tested += n;
     for (uint32_t i = first; i < first + n; i++) {
-        if (!hit_ball(order[i], r, &hit->t))
+        if (!hit_ball(permutation[i], r, &hit->t))
             continue;
-        hit->ball = order[i];
+        hit->ball = permutation[i];
         r->t_max = hit->t;
         found = true;
     }
@@ -486,7 +486,7 @@ static void make_deepest_tree(bool leaf_first)
     make_room(BVH_MAX_DEPTH);
     for (uint32_t i = 0; i < count; i++) {
         boxes[i] = box_around(vec3_make(2.0f * (float)i, 0, 0), 0.5f);
-        order[i] = i;
+        permutation[i] = i;
     }
     aabb all = aabb_union(boxes[0], boxes[count - 1]);
     uint32_t node = 0, next = 1;
@@ -525,7 +525,7 @@ static void a_single_leaf_of_many_is_walked(void)
     make_random(50, 1, 0.3f);
     nodes[0] = (struct bvh_node){box_around(vec3_make(0, 0, 0), 2), 0, count};
     for (uint32_t i = 0; i < count; i++)
-        order[i] = count - 1 - i;
+        permutation[i] = count - 1 - i;
     tree.nodes = nodes;
     tree.node_count = 1;
     for (uint64_t i = 0; i < 300; i++) {

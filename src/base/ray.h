@@ -4,7 +4,7 @@
 
 #include "base/vec.h"
 
-/* The points origin + t direction with t_min <= t <= t_max.
+/* The points origin + t direction with t_min <= t <= t_max, 0 <= t_min.
  *
  * direction need not have length one; t counts in units of its length.
  * inverse_direction is 1 / direction, component by component: a component of

@@ -2,6 +2,7 @@
 #include "image/png.h"
 
 #include <stb/stb_image_write.h>
+#include <stdio.h>
 
 #include "base/memory.h"
 #include "image/replace.h"
@@ -30,16 +31,39 @@ static uint8_t *encode(const struct image *image)
     return bytes;
 }
 
+/* stb's own way to a file does not tell when the disk is full. */
+struct png_file {
+    FILE *file;
+    bool fine;
+};
+
+static void write_bytes(void *user, void *bytes, int size)
+{
+    struct png_file *out = user;
+    size_t count = (size_t)size;
+    out->fine = out->fine && fwrite(bytes, 1, count, out->file) == count;
+}
+
+static bool write_file(const char *path, const struct image *image)
+{
+    struct png_file out = {fopen(path, "wb"), true};
+    if (out.file == NULL)
+        return false;
+    uint8_t *bytes = encode(image);
+    int made =
+        stbi_write_png_to_func(write_bytes, &out, image->width, image->height,
+                               3, bytes, 3 * image->width);
+    mem_free(bytes);
+    bool closed = fclose(out.file) == 0;
+    return made && out.fine && closed;
+}
+
 bool png_write(const char *path, const struct image *image, struct error *err)
 {
     struct replacement aside;
     if (!replace_begin(&aside, path, err))
         return false;
-    uint8_t *bytes = encode(image);
-    int written = stbi_write_png(aside.temporary, image->width, image->height,
-                                 3, bytes, 3 * image->width);
-    mem_free(bytes);
-    if (written)
+    if (write_file(aside.temporary, image))
         return replace_commit(&aside, err);
     replace_abandon(&aside);
     return error_set(err, "%s: cannot write the picture", path);

@@ -9,9 +9,9 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "image/half.h"
 #include "image/read_limits.h"
 
@@ -251,20 +251,6 @@ static bool chunk_is_whole(const exr_decode_pipeline_t *decoder)
             chunk->packed_size == chunk->unpacked_size);
 }
 
-/* Buffers that start as zeros: what a damaged chunk leaves unwritten is black
- * and not what was in memory. */
-static void *zeroed(exr_transcoding_pipeline_buffer_id_t use, size_t bytes)
-{
-    (void)use;
-    return calloc(bytes, 1);
-}
-
-static void release(exr_transcoding_pipeline_buffer_id_t use, void *buffer)
-{
-    (void)use;
-    free(buffer);
-}
-
 static exr_result_t leave_unpacked(exr_decode_pipeline_t *decoder)
 {
     (void)decoder;
@@ -280,8 +266,6 @@ static exr_result_t decode(const struct exr_file *f,
 {
     if (!chunk_is_whole(decoder))
         return EXR_ERR_BAD_CHUNK_LEADER;
-    decoder->alloc_fn = zeroed;
-    decoder->free_fn = release;
     exr_result_t result =
         exr_decoding_choose_default_routines(f->context, 0, decoder);
     decoder->unpack_and_convert_fn = leave_unpacked;
@@ -384,6 +368,10 @@ bool exr_read(const char *path, struct image *out, struct error *err)
     f.err = err;
     f.image = out;
     options.error_handler_fn = silent;
+    /* Zeros: what a damaged chunk leaves unwritten is black, and not what was
+     * in memory. */
+    options.alloc_fn = mem_alloc_bytes;
+    options.free_fn = mem_free;
     options.max_image_width = IMAGE_MOST_PIXELS;
     options.max_image_height = IMAGE_MOST_PIXELS;
     options.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;

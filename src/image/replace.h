@@ -19,7 +19,8 @@ struct replacement {
 
 /* Chooses the temporary name and creates the empty file, so that a folder
  * that is missing or not writable is told before the work. End with one of
- * the other two. */
+ * the other two before the next begins; if the program exits before that, the
+ * temporary file is removed. */
 bool replace_begin(struct replacement *r, const char *path, struct error *err);
 
 /* Puts the temporary file in its place. */

@@ -162,7 +162,7 @@ static void numbers_have_24_bits(void)
 
 static void a_sampler_walks_through_the_dimensions(void)
 {
-    struct sampler s = sampler_start(3, 4, 5);
+    struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 3, 4, 5, 1);
     uint64_t key = random_key(3, 4, 5);
     TEST_ASSERT_TRUE(sampler_1d(&s) == random_float(key, 0));
     vec2 pair = sampler_2d(&s);

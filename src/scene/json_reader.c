@@ -15,6 +15,12 @@ const struct json_range any_float = {-FLT_MAX, FLT_MAX, "a number"};
 const struct json_range above_zero = {FLT_MIN, FLT_MAX, "a number above 0"};
 const struct json_range zero_or_more = {0.0, FLT_MAX, "a number, 0 or more"};
 
+void json_set_up(void)
+{
+    cJSON_Hooks hooks = {mem_alloc_bytes, mem_free};
+    cJSON_InitHooks(&hooks);
+}
+
 bool json_open_text(struct json_reader *j, const char *name, const char *text,
                     struct error *err)
 {

@@ -29,6 +29,10 @@ struct json_range {
     const char *expected;
 };
 
+/* Makes cJSON allocate where everything else does (base/memory.h); once, before
+ * the first use of it. */
+void json_set_up(void);
+
 /* Reads a whole file; false when it can't be read or is not JSON (the message
  * then names line and column and shows the place). */
 bool json_open(struct json_reader *j, const char *path, struct error *err);

@@ -93,7 +93,7 @@ static void load_integrator_keys(struct json_reader *j, const cJSON *node,
 {
     struct integrator_settings *s = &scene->integrator;
     struct integrator_defaults otherwise = defaults_of(s->kind);
-    if (!substituted)
+    if (node != NULL && !substituted)
         json_keys(j, node,
                   s->kind == INTEGRATOR_INTERSECTION_TEST ? test_keys
                   : s->kind == INTEGRATOR_PATH            ? path_keys
@@ -205,8 +205,7 @@ void load_camera(struct json_reader *j, const cJSON *node, struct scene *scene)
     c->look_at = json_vec3(j, json_get(node, "look_at"), vec3_make(0, 0, 0));
     c->up = json_vec3(j, json_get(node, "ref_up"), vec3_make(0, 1, 0));
     c->vertical_fov = json_float(j, json_get(node, "fov"), fov, 45.0f);
-    /* A pinhole's picture does not depend on it; the course's scenes have it.
-     */
+    /* No part of a pinhole's picture; the course's scenes have it. */
     json_float(j, json_get(node, "focal_length"), above_zero, 1.0f);
     check_frame(j, node, c);
 }

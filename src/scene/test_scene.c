@@ -114,7 +114,7 @@ static void materials_and_textures_are_found_by_name(void)
     load("{" PAINT ", \"objects\": [" BALL(0, 0, 0, 2) "]}", NULL);
     TEST_ASSERT_EQUAL_UINT32(1, scene.object_count);
     const struct material *m = scene.objects[0].material;
-    TEST_ASSERT_EQUAL_FLOAT(0.5f, m->albedo->color.g);
+    TEST_ASSERT_EQUAL_FLOAT(0.5f, m->albedo->color[0].g);
     TEST_ASSERT_FALSE(m->two_sided);
     TEST_ASSERT_EQUAL_FLOAT(2, scene.objects[0].sphere.radius);
 }
@@ -252,7 +252,7 @@ static void write_balls(char *text)
 {
     text += sprintf(text, "{" PAINT ", \"objects\": [");
     for (uint64_t i = 0; i < BALLS; i++) {
-        struct sampler s = sampler_start(0, 0, i);
+        struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 0, 0, i, 1);
         vec2 xy = sampler_2d(&s);
         text += sprintf(text,
                         "%s{\"type\": \"sphere\", \"center\": [%f, %f, %f], "
@@ -265,7 +265,7 @@ static void write_balls(char *text)
 
 static ray ball_ray(uint64_t i)
 {
-    struct sampler s = sampler_start(1, 0, i);
+    struct sampler s = sampler_start(SAMPLER_INDEPENDENT, 1, 0, i, 1);
     vec2 a = sampler_2d(&s), b = sampler_2d(&s);
     vec3 from = vec3_make(2 * a.x - 0.5f, 2 * a.y - 0.5f, -1);
     vec3 d = vec3_sub(vec3_make(b.x, b.y, sampler_1d(&s)), from);

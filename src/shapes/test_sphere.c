@@ -160,7 +160,8 @@ static vec3 random_vector(struct sampler *random, float size)
 static void try_spheres(float radius, float distance, float offset)
 {
     for (uint64_t i = 0; i < 4000; i++) {
-        struct sampler random = sampler_start(1, (uint64_t)lroundf(radius), i);
+        struct sampler random = sampler_start(SAMPLER_INDEPENDENT, 1,
+                                              (uint64_t)lroundf(radius), i, 1);
         struct sphere s = {random_vector(&random, offset), radius};
         vec3 origin = vec3_add(s.center, random_vector(&random, distance));
         vec3 aim = vec3_add(s.center, random_vector(&random, 1.2f * radius));
@@ -201,7 +202,7 @@ static void a_huge_sphere_below_matches_the_closed_form(void)
 {
     struct sphere ground = sphere_at(0, -1e6f, 0, 1e6f);
     for (uint64_t i = 0; i < 4000; i++) {
-        struct sampler random = sampler_start(2, 0, i);
+        struct sampler random = sampler_start(SAMPLER_INDEPENDENT, 2, 0, i, 1);
         vec3 d = random_vector(&random, 1);
         ray r = ray_make(vec3_make(0, 2, 0), d, 0, INFINITY);
         expect_like_exact(&ground, &r);
@@ -253,7 +254,8 @@ static void positions_are_on_the_sphere(void)
 {
     for (int k = -3; k <= 4; k++)
         for (uint64_t i = 0; i < 2000; i++) {
-            struct sampler random = sampler_start(3, (uint64_t)(k + 3), i);
+            struct sampler random =
+                sampler_start(SAMPLER_INDEPENDENT, 3, (uint64_t)(k + 3), i, 1);
             float size = powf(10.0f, (float)k);
             struct sphere s = {random_vector(&random, 4 * size), size};
             vec3 out = random_vector(&random, 1);

@@ -89,7 +89,8 @@ static void leave_triangle(struct sampler *random, vec3 p[3], float eye)
 static void leave_triangles(float size, float offset)
 {
     for (uint64_t i = 0; i < 10000; i++) {
-        struct sampler random = sampler_start(1, (uint64_t)(1e3f * size), i);
+        struct sampler random = sampler_start(SAMPLER_INDEPENDENT, 1,
+                                              (uint64_t)(1e3f * size), i, 1);
         vec3 p[3];
         random_triangle(&random, size, offset, p);
         leave_triangle(&random, p, 3 * (size + offset));
@@ -111,7 +112,7 @@ static void no_ray_hits_a_triangle_far_from_the_origin(void)
 static void no_ray_hits_a_triangle_in_an_axis_plane(void)
 {
     for (uint64_t i = 0; i < 30000; i++) {
-        struct sampler random = sampler_start(2, 0, i);
+        struct sampler random = sampler_start(SAMPLER_INDEPENDENT, 2, 0, i, 1);
         vec3 p[3];
         float size = powf(10.0f, 7.0f * sampler_1d(&random) - 3.0f);
         random_triangle(&random, size, 0, p);
@@ -157,7 +158,8 @@ static void leave_sphere(struct sampler *random, const struct sphere *s)
 static void leave_spheres(float radius, float offset)
 {
     for (uint64_t i = 0; i < 10000; i++) {
-        struct sampler random = sampler_start(3, (uint64_t)(1e3f * radius), i);
+        struct sampler random = sampler_start(SAMPLER_INDEPENDENT, 3,
+                                              (uint64_t)(1e3f * radius), i, 1);
         struct sphere s = {random_vector(&random, offset), radius};
         leave_sphere(&random, &s);
     }

@@ -57,7 +57,7 @@ def _label(kind: str, size: float, grazing: bool) -> str:
 
 def _unit(vectors: Array) -> Array:
     """Each vector at length one; one of length zero becomes NaN."""
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore", divide="ignore"):
         unit: Array = vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
     return unit
 

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from raybook_grader.checks.oracles import cases_of, load_oracle
 from raybook_grader.probes import Cases, Failure
 

@@ -28,7 +28,7 @@ def library_flags(kind: str) -> list[str]:
     if kind == "--cflags":
         return [flag.replace("-I", "-isystem", 1) for flag in said]
     core = [flag for flag in said if flag.startswith(("-L", "-lOpenEXRCore"))]
-    return [*core, "-lcjson", "-lstb", "-lm"]
+    return [*core, "-lcjson", "-lm"]
 
 
 def build_fuzzer(name: str) -> Path:
@@ -46,7 +46,7 @@ def build_fuzzer(name: str) -> Path:
 def _instrumented_objects() -> list[Path]:
     """Every source but main.c, what needs Embree, and those that have a stand-in here; made anew
     when older."""
-    ours = [HERE / "fuzz_file.c", HERE / "read_limits.c", HERE / "stb.c"]
+    ours = [HERE / "fuzz_file.c", HERE / "read_limits.c"]
     left_out = {"embree.c", *(file.name for file in ours)}
     sources = sorted(
         file
@@ -63,31 +63,44 @@ def _instrumented_objects() -> list[Path]:
         out = folder / f"{source.parent.name}-{source.stem}.o"
         stale = max(source.stat().st_mtime, newest_header)
         if not out.is_file() or out.stat().st_mtime < stale:
-            sanitize = f"-fsanitize=fuzzer-no-link,{SANITIZE}"
-            _run(*CLANG, sanitize, *flags, "-c", str(source), "-o", str(out))
+            sanitize = [f"-fsanitize=fuzzer-no-link,{SANITIZE}"]
+            if source.stem == "stb_library":  # others' code: as in build.mk, memory alone
+                sanitize.append("-fno-sanitize=undefined,float-cast-overflow")
+            _run(*CLANG, *sanitize, *flags, "-c", str(source), "-o", str(out))
         return out
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         return list(pool.map(compiled, [*sources, *ours]))
 
 
-def build_replay(name: str) -> Path:
-    """The harness on files: the objects of `make OPT=asan`, gcc, no fuzzer, the real limits."""
-    make = ["make", "-s", "OPT=asan", "list-objects"]
-    said = subprocess.run(make, cwd=CHECKOUT, check=True, capture_output=True, text=True).stdout
-    objects = said.splitlines()[-1].split()
+def build_replay(name: str, mutant: Path | None = None) -> Path:
+    """The harness on files: compiled and linked as `make OPT=asan` does, with the real limits.
+
+    mutant: a source that takes the place of the renderer's of the same name.
+    """
+    objects = _make_says("list-objects")
+    if mutant:
+        objects = [path for path in objects if not path.endswith(f"/{mutant.stem}.o")]
+        objects.append(str(mutant))
     program = BUILD / f"replay-{name}"
     program.parent.mkdir(parents=True, exist_ok=True)
-    _run(
-        "gcc", "-std=c99", "-O1", "-g", "-fopenmp", "-fsanitize=address,undefined",
-        "-fno-sanitize-recover=all", f"-I{CHECKOUT / 'src'}",
-        *(str(HERE / file) for file in ("replay.c", "fuzz_file.c", f"fuzz_{name}.c")),
-        *(str(CHECKOUT / path) for path in objects), *library_flags("--libs"), "-o", str(program),
-    )  # fmt: skip
+    mains = [str(HERE / file) for file in ("replay.c", "fuzz_file.c", f"fuzz_{name}.c")]
+    libraries = _make_says("list-libraries")
+    _run(*_make_says("list-compiler"), *mains, *objects, *libraries, "-o", str(program))
     return program
 
 
+def _make_says(target: str) -> list[str]:
+    """The words of the last line; whatever make this may run under is kept out of it."""
+    alone = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "MFLAGS"))}
+    command = ["make", "-s", "OPT=asan", "CC=gcc", target]
+    done = subprocess.run(command, cwd=CHECKOUT, env=alone, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+    return done.stdout.splitlines()[-1].split()
+
+
 def _run(*command: str) -> None:
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, cwd=CHECKOUT, capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")

@@ -15,8 +15,12 @@ const char *fuzz_file(const char *name, const uint8_t *data, size_t size)
     return name;
 }
 
+int fuzz_tells;
+
 void fuzz_check_message(int fine, const char *message)
 {
+    if (fuzz_tells)
+        fprintf(stderr, "  %s%s\n", fine ? "read" : "refused: ", message);
     if (fine == (message[0] == '\0'))
         return;
     fprintf(stderr, "answer %d with the message \"%s\"\n", fine, message);

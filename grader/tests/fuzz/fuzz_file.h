@@ -14,6 +14,9 @@ const char *fuzz_file(const char *name, const uint8_t *data, size_t size);
  * must not: stops the program otherwise. */
 void fuzz_check_message(int fine, const char *message);
 
+/* Does fuzz_check_message tell of every answer? Only replay.c wants that. */
+extern int fuzz_tells;
+
 /* What each harness defines; always 0. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

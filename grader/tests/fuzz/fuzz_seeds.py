@@ -126,7 +126,7 @@ def image_seeds() -> dict[str, bytes]:
 
 def _pixels() -> np.ndarray[Any, np.dtype[np.uint8]]:
     y, x, c = np.mgrid[0:HEIGHT, 0:WIDTH, 0:3]
-    return ((37 * x + 91 * y * (c + 1)) % 256).astype(np.uint8)
+    return np.asarray((37 * x + 91 * y * (c + 1)) % 256, np.uint8)
 
 
 def _pillow_seeds() -> dict[str, bytes]:
@@ -167,7 +167,7 @@ def _exr_seeds() -> dict[str, bytes]:
         "b44": OpenEXR.B44_COMPRESSION, "b44a": OpenEXR.B44A_COMPRESSION,
         "dwaa": OpenEXR.DWAA_COMPRESSION,
     }  # fmt: skip
-    values = _pixels().astype(np.float32) / 64
+    values = 1 + _pixels().astype(np.float32) / 64  # far enough from 0 for lossy compression
     files = {}
     for name, compression in compressions.items():
         for kind in (np.float16, np.float32, np.uint32):

@@ -24,6 +24,7 @@ static void run(const char *path)
 
 int main(int argc, char *argv[])
 {
+    fuzz_tells = 1;
     for (int i = 1; i < argc; i++)
         run(argv[i]);
     return 0;

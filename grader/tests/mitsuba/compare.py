@@ -5,7 +5,8 @@
 A test of record: it needs `pip install mitsuba` next to the grader's packages, and takes minutes.
 Both programs render every scene from many seeds; the grader's own judge then says whether ours
 converges to what Mitsuba converges to. A scene fails when a channel's mean differs by more than
-0.5 %, or when the judge's verdict (part A) is not "pass". The exit code is 1 if any scene fails.
+0.5 %, when the judge's verdict (part A) is not "pass", or when single pixels differ by more than
+noise (pixel_bias.py). The exit code is 1 if any scene fails.
 """
 
 import argparse
@@ -22,12 +23,13 @@ import numpy as np
 from convert import convert
 from make_images import make_images
 from mitsuba_types import load_mitsuba
+from pixel_bias import PixelBias, pixel_bias
 
 from raybook_grader.judge.bias import verdict
 from raybook_grader.judge.exr import read_exr
 from raybook_grader.judge.findings import BiasVerdict
 from raybook_grader.judge.pixels import Array, Image
-from raybook_grader.judge.reference import ReferenceStatistics, reduce_reference
+from raybook_grader.judge.reference import reduce_reference
 from raybook_grader.judge.thresholds import ALL_TILES, CAUSTIC_TILES
 
 TOP = Path(__file__).resolve().parents[3]
@@ -56,6 +58,7 @@ class Row:
     difference: Array  # (3,)
     error: Array  # (3,), one standard deviation
     judged: BiasVerdict
+    pixels: PixelBias
     ours_seconds: float
     mitsuba_seconds: float
 
@@ -63,20 +66,17 @@ class Row:
     def fine(self) -> bool:
         """Does it pass?"""
         close = bool((np.abs(self.difference) <= MEAN_LIMIT).all())
-        return close and self.judged.status == "pass"
+        return close and self.judged.status == "pass" and self.pixels.fine
 
 
-def reference_of(path: Path, spp: int) -> ReferenceStatistics:
-    """What Mitsuba converges to."""
+def mitsuba_renders(path: Path, chunk_spp: int) -> list[Image]:
+    """One image a seed."""
     mi = load_mitsuba()
     scene = mi.load_dict(convert(path))
-    chunk_spp = max(1, REFERENCE_SHARE * spp // REFERENCE_CHUNKS)
-
-    def chunks() -> Iterator[Image]:
-        for seed in range(REFERENCE_CHUNKS):
-            yield np.array(mi.render(scene, spp=chunk_spp, seed=seed), dtype=np.float32)
-
-    return reduce_reference(chunks(), chunk_spp, REFERENCE_CHUNKS)
+    return [
+        np.array(mi.render(scene, spp=chunk_spp, seed=seed), dtype=np.float32)
+        for seed in range(REFERENCE_CHUNKS)
+    ]
 
 
 def our_renders(
@@ -95,7 +95,9 @@ def our_renders(
 def compare(path: Path, options: Options) -> Row:
     """Render one scene with both and judge."""
     start = time.monotonic()
-    reference = reference_of(path, options.spp)
+    chunk_spp = max(1, REFERENCE_SHARE * options.spp // REFERENCE_CHUNKS)
+    chunks = mitsuba_renders(path, chunk_spp)
+    reference = reduce_reference(chunks, chunk_spp, REFERENCE_CHUNKS)
     middle = time.monotonic()
     first: list[Image] = []
 
@@ -123,6 +125,7 @@ def compare(path: Path, options: Options) -> Row:
         difference=means.mean(axis=0) / scale - 1,
         error=np.sqrt(variance) / scale,
         judged=judged,
+        pixels=pixel_bias(first, chunks, REFERENCE_SHARE),
         ours_seconds=seconds,
         mitsuba_seconds=middle - start,
     )
@@ -137,7 +140,7 @@ def tile_sizes(path: Path) -> tuple[int, ...]:
 
 HEAD = (
     f"{'scene':24s}{'red %':>16s}{'green %':>16s}{'blue %':>16s}"
-    f"{'rms %':>7s}{'noise':>7s}{'ours s':>8s}{'Mitsuba s':>11s}  verdict"
+    f"{'tiles %':>9s}{'pixels %':>16s}{'noise':>7s}{'ours s':>8s}{'Mitsuba s':>11s}  verdict"
 )
 
 
@@ -148,11 +151,12 @@ def line_of(row: Row) -> str:
         for d, e in zip(row.difference, row.error, strict=True)
     )
     rms = "" if row.judged.rms_bias is None else f"{100 * row.judged.rms_bias:.2f}"
+    pixels = f"{100 * row.pixels.rms:.2f} ({row.pixels.deviations:+.1f}σ)"
     noise = "" if row.judged.noise_ratio is None else f"{row.judged.noise_ratio:.2f}"
     reasons = "; ".join(reason.sentence for reason in row.judged.reasons)
     end = f"{row.judged.status}{'' if row.fine else '  FAILS'} {reasons}".rstrip()
     seconds = f"{row.ours_seconds:8.1f}{row.mitsuba_seconds:11.1f}"
-    return f"{row.name:24s}{cells}{rms:>7s}{noise:>7s}{seconds}  {end}"
+    return f"{row.name:24s}{cells}{rms:>9s}{pixels:>16s}{noise:>7s}{seconds}  {end}"
 
 
 def prepare() -> None:

@@ -12,8 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-CHECKOUT = Path(__file__).resolve().parents[3]
-SCENE_MESHES = CHECKOUT / "build" / "meshes"
+SCENE_MESHES = Path(__file__).resolve().parents[3] / "build" / "meshes"
 
 Point = tuple[float, float, float]
 

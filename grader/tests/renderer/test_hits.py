@@ -16,8 +16,8 @@ from pathlib import Path
 
 import pytest
 from hit_meshes import HitMesh, hit_meshes
+from renderer_runs import ROOT, make
 
-CHECKOUT = Path(__file__).resolve().parents[3]
 FULL = os.environ.get("RAYBOOK_FULL") == "1"
 RAYS = 1_666_667 if FULL else 20_000
 LINEAR_TESTS = 400_000_000 if FULL else 8_000_000
@@ -37,25 +37,23 @@ class Workshop:
         objects = _words("list-objects")
         changed = []
         if source:
-            text = (CHECKOUT / source).read_text()
+            text = (ROOT / source).read_text()
             assert text.count(old) == 1, f"{source} no longer says {old!r} once"
             mutant = self.folder / Path(source).name
             mutant.write_text(text.replace(old, new))
             objects = [path for path in objects if not path.endswith(f"{mutant.stem}.o")]
             changed = [str(mutant)]
         out = self.folder / f"hits{len(list(self.folder.glob('hits*')))}"
-        main = str(CHECKOUT / "grader" / "tests" / "renderer" / "hits.c")
+        main = str(ROOT / "grader" / "tests" / "renderer" / "hits.c")
         command = [*_words("list-compiler"), *changed, main, *objects]
-        subprocess.run(
-            [*command, *_words("list-libraries"), "-o", str(out)], cwd=CHECKOUT, check=True
-        )
+        subprocess.run([*command, *_words("list-libraries"), "-o", str(out)], cwd=ROOT, check=True)
         return out
 
     def hits(self, program: Path, mesh: HitMesh, rays: int) -> dict[str, int]:
         """What hits says."""
         obj, inside = mesh.write(self.folder, "mesh")
         linear = min(rays, LINEAR_TESTS // mesh.obj.count("\nf "))
-        command = [program, obj, inside, str(rays), "1", str(linear)]
+        command = [*map(str, (program, obj, inside, rays)), "1", str(linear)]
         done = subprocess.run(command, capture_output=True, text=True, check=True)
         counts: dict[str, int] = json.loads(done.stdout)
         print(done.stdout, done.stderr)
@@ -63,9 +61,7 @@ class Workshop:
 
 
 def _words(target: str) -> list[str]:
-    make = ["make", "-s", target]
-    said = subprocess.run(make, cwd=CHECKOUT, check=True, capture_output=True, text=True).stdout
-    return said.splitlines()[-1].split()
+    return make("-s", target).splitlines()[-1].split()
 
 
 @pytest.fixture(scope="module")

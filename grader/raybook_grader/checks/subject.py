@@ -1,0 +1,65 @@
+"""One student's module under test: built once, run many times."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..course import Assignment
+from ..sandbox import BoxResult, Limits
+from .program import ModuleObjects, Workshop
+from .trouble import Trouble, trouble
+
+# Processor time is what a module spends, whatever else the machine does; real time only stops
+# programs that wait for ever.
+_PATIENCE = 2.0
+
+
+class Stopped(Exception):
+    """A run of the student's program that gave no answer; ``said`` is what it printed."""
+
+    def __init__(self, problem: Trouble, said: bytes = b"") -> None:
+        super().__init__(problem.message)
+        self.problem = problem
+        self.said = said
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A module that compiled and linked. ``renderer`` is the renderer with it."""
+
+    workshop: Workshop
+    assignment: Assignment
+    module: ModuleObjects
+    renderer: bytes
+
+    def run(
+        self,
+        program: bytes,
+        arguments: Sequence[str],
+        *,
+        inputs: Mapping[str, bytes] | None = None,
+        binds: Mapping[str, Path] | None = None,
+        collect: Sequence[str] = (),
+    ) -> BoxResult:
+        """Run a program that holds the student's code, in a fresh box, within the limits.
+
+        The result is an answer, if not a right one; raises `Stopped` if there is none.
+        """
+        limits = self.assignment.limits
+        memory = limits.memory_mib << 20
+        result = self.workshop.box.run(
+            ["/program", *arguments],
+            binds=binds or {},
+            inputs={"/program": program, **(inputs or {})},
+            collect=collect,
+            limits=Limits(
+                wall_seconds=_PATIENCE * limits.wall_seconds,
+                cpu_seconds=limits.wall_seconds,
+                memory_bytes=memory,
+            ),
+        )
+        if problem := trouble(result, memory):
+            raise Stopped(problem, result.stdout + result.stderr)
+        return result

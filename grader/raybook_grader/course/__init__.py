@@ -1,0 +1,25 @@
+"""The course as the grader sees it: its assignments, what they own and how they are checked."""
+
+from .load import load_course
+from .model import (
+    Assignment,
+    BuildCheck,
+    Check,
+    Course,
+    ImageCheck,
+    Limits,
+    ProbeCheck,
+    UnitCheck,
+)
+
+__all__ = [
+    "Assignment",
+    "BuildCheck",
+    "Check",
+    "Course",
+    "ImageCheck",
+    "Limits",
+    "ProbeCheck",
+    "UnitCheck",
+    "load_course",
+]

@@ -1,0 +1,102 @@
+"""The assignments as plain values: what `assignments/*/assignment.toml` holds, validated."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What one run of a student's program may use; a run is one probe, test or rendering."""
+
+    wall_seconds: float = 20.0
+    memory_mib: int = 1024
+
+
+@dataclass(frozen=True)
+class BuildCheck:
+    """The module compiles and links; its points ask for no warning."""
+
+    name: str
+    points: float
+    hidden: bool = False
+
+
+@dataclass(frozen=True)
+class UnitCheck:
+    """The public Unity tests. ``tests`` is relative to the assignment's folder."""
+
+    name: str
+    points: float
+    tests: str
+    hidden: bool = False
+
+
+@dataclass(frozen=True)
+class ProbeCheck:
+    """One group of cases: ``driver`` runs in the box, ``oracle`` judges outside of it."""
+
+    name: str
+    points: float
+    driver: str
+    oracle: str
+    group: str
+    seed: int
+    hidden: bool = False
+
+
+@dataclass(frozen=True)
+class ImageCheck:
+    """Renderings of a scene, ``seeds`` of them at ``spp`` samples a pixel.
+
+    ``scene`` is relative to the course's root; ``resolution`` is (width, height).
+    """
+
+    name: str
+    points: float
+    scene: str
+    resolution: tuple[int, int]
+    spp: int
+    seeds: int
+    hidden: bool = False
+
+
+Check = BuildCheck | UnitCheck | ProbeCheck | ImageCheck
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """One assignment. ``owned`` are the only files that are taken from a submission."""
+
+    folder: Path
+    number: str
+    module: str
+    title: str
+    points: float
+    optional: bool
+    owned: tuple[str, ...]
+    todos: tuple[str, ...]
+    limits: Limits
+    checks: tuple[Check, ...]
+
+    @property
+    def is_graded(self) -> bool:
+        """False while no check is declared: such an assignment is left out, with a note."""
+        return bool(self.checks)
+
+
+@dataclass(frozen=True)
+class Course:
+    """All assignments of one checkout, in the order of their numbers."""
+
+    root: Path
+    name: str
+    assignments: tuple[Assignment, ...]
+
+    def assignment(self, number: str) -> Assignment:
+        """The assignment of that number; KeyError when there is none."""
+        for assignment in self.assignments:
+            if assignment.number == number:
+                return assignment
+        raise KeyError(number)

@@ -1,0 +1,127 @@
+"""The commands `grade` and `report`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from contextlib import closing
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+
+from ..course import load_course
+from ..database import Database
+from ..reports import write_reports
+from ..sandbox import require
+from .job import Worker
+from .plan import Order
+from .run import grade_class
+
+if TYPE_CHECKING:
+    # argparse has no public name for what add_subparsers() returns.
+    Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
+
+_CHECKOUT = Path(__file__).resolve().parents[3]
+
+
+def add_commands(subparsers: Subparsers) -> None:
+    """Register `grade` and `report` with raybook-grader."""
+    _add_grade(subparsers)
+    _add_report(subparsers)
+
+
+def _add_grade(subparsers: Subparsers) -> None:
+    command = subparsers.add_parser(
+        "grade",
+        help="grade a folder of submissions",
+        description="Grades every submission in a folder. Each is a folder or an archive (.zip, "
+        ".tar.gz) with the files that an assignment owns at their usual paths. Stopped at any "
+        "point, the same command goes on from there; what has not changed is not done again.",
+        epilog="Exit code: 0 all graded, whatever the scores; 3 the grader itself failed in some "
+        "module, which then has no score; 2 bad usage; 130 interrupted.",
+    )
+    command.add_argument("submissions", metavar="SUBMISSIONS", type=Path, help="the folder")
+    command.add_argument(
+        "--out", metavar="DIR", type=Path, required=True,
+        help="where the results go: grades.json, index.html, students/ and grades.sqlite",
+    )  # fmt: skip
+    command.add_argument(
+        "--assignment", metavar="LIST", type=_list, help="only these, such as 01,03"
+    )
+    command.add_argument(
+        "--jobs", metavar="N", type=_positive, default=len(os.sched_getaffinity(0)),
+        help="modules graded at once (default: one a core, here %(default)s)",
+    )  # fmt: skip
+    command.add_argument("--fresh", action="store_true", help="forget all earlier results in DIR")
+    command.add_argument(
+        "--regrade", metavar="LIST", type=_list, default=(),
+        help="do these submissions again, and say what has changed",
+    )  # fmt: skip
+    command.add_argument(
+        "--course", metavar="DIR", type=Path, default=_CHECKOUT,
+        help="the checkout whose assignments are graded (default: the one of this program)",
+    )  # fmt: skip
+    command.add_argument(
+        "--kit", metavar="DIR", type=Path, help="the reference's objects (default: its build/kit)"
+    )
+    command.set_defaults(handler=_grade)
+
+
+def _add_report(subparsers: Subparsers) -> None:
+    command = subparsers.add_parser(
+        "report",
+        help="write the reports of a graded class again",
+        description="Writes index.html and students/*.html from the results in DIR.",
+    )
+    command.add_argument("out", metavar="DIR", type=Path, help="a folder that `grade` has written")
+    command.set_defaults(handler=_report)
+
+
+def _grade(arguments: argparse.Namespace) -> int:
+    console = Console()
+    root = arguments.course.resolve()
+    course = load_course(root)
+    require()
+    order = Order(
+        submissions=arguments.submissions,
+        out=arguments.out,
+        assignments=arguments.assignment,
+        workers=arguments.jobs,
+        fresh=arguments.fresh,
+        regrade=arguments.regrade,
+    )
+    worker = Worker(root, (arguments.kit or root / "build" / "kit").resolve())
+    try:
+        outcome = grade_class(course, worker, order, console)
+    except KeyboardInterrupt:
+        hint = " (without --fresh)" if order.fresh else ""
+        print(f"\nstopped; what is graded so far is kept. Go on with the same command{hint}.")
+        return 130
+    print(f"grades: {outcome.grades}\nreport: {outcome.report}")
+    if not outcome.internal_errors:
+        return 0
+    print(
+        f"internal errors: {outcome.internal_errors} modules have no score because the grader "
+        "failed; the report shows them first, and the same command tries them again"
+    )
+    return 3
+
+
+def _report(arguments: argparse.Namespace) -> int:
+    with closing(Database(arguments.out)) as database:
+        print(f"report: {write_reports(database, arguments.out)}")
+    return 0
+
+
+def _list(text: str) -> tuple[str, ...]:
+    items = tuple(item.strip() for item in text.split(",") if item.strip())
+    if not items:
+        raise argparse.ArgumentTypeError("empty, expected values with commas between them")
+    return items
+
+
+def _positive(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"is {text!r}, expected a whole number above 0")
+    return int(text)

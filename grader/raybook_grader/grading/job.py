@@ -1,0 +1,41 @@
+"""The unit of work: pure, so that it may run anywhere, and twice."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..checks.program import Workshop
+from ..checks.reference import References
+from ..course import load_course
+from ..kit import load_kit
+from ..sandbox import Box
+from ..submissions import SubmittedFile
+from .module import ModuleGrader
+from .result import ModuleResult
+
+
+@dataclass(frozen=True)
+class Job:
+    """One module to grade; ``key`` names what comes of it."""
+
+    key: str
+    assignment: str
+    files: Mapping[str, SubmittedFile]
+
+
+@dataclass(frozen=True)
+class Worker:
+    """What a worker process is made from: calling it gives the function that does a job."""
+
+    root: Path
+    kit: Path
+
+    def workshop(self) -> Workshop:
+        return Workshop(load_course(self.root), load_kit(self.kit), Box())
+
+    def __call__(self) -> Callable[[Job], ModuleResult]:
+        workshop = self.workshop()
+        grader = ModuleGrader(workshop, References(workshop))
+        return lambda job: grader.grade(workshop.course.assignment(job.assignment), job.files)

@@ -1,0 +1,78 @@
+"""What a result was made from, as one hash: equal keys mean equal work, to be done once."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+from pathlib import Path
+
+from ..checks.scene import scene_fingerprint
+from ..checks.stub import stub_text
+from ..course import Assignment, Course, ImageCheck
+from ..kit import Kit
+from ..submissions import SubmittedFile
+
+_PACKAGE = Path(__file__).resolve().parents[1]
+_NO_SAY = ("reports", "literate")
+"""Parts of the grader that change no result."""
+_NOT_USED = ("mistakes", "alternatives")
+"""Parts of an assignment that no submission is graded with."""
+
+
+class Keys:
+    """The keys of one run's work."""
+
+    def __init__(self, course: Course, kit: Kit) -> None:
+        self._course = course
+        self._kit = kit
+        self._assignments: dict[str, str] = {}
+
+    def key(self, assignment: Assignment, files: Mapping[str, SubmittedFile]) -> str:
+        """The key of grading these files of a submission in an assignment."""
+        if assignment.number not in self._assignments:
+            self._assignments[assignment.number] = self._assignment(assignment)
+        parts = [self._assignments[assignment.number]]
+        for path in sorted(files):
+            file = files[path]
+            parts += [path, file.refusal or "", hashlib.sha256(file.content).hexdigest()]
+        return _hash(parts)
+
+    def _assignment(self, assignment: Assignment) -> str:
+        root = self._course.root
+        scenes = {check.scene for check in assignment.checks if isinstance(check, ImageCheck)}
+        used = [p for p in _files(assignment.folder) if not _is_below(p, assignment, _NOT_USED)]
+        return _hash([
+            self._grader,
+            self._kit.fingerprint,
+            *(_content(path, assignment.folder) for path in used),
+            *(stub_text(root, path) for path in assignment.owned),
+            *(scene_fingerprint(root, scene) for scene in sorted(scenes)),
+        ])  # fmt: skip
+
+    @cached_property
+    def _grader(self) -> str:
+        """The grader's version is its text."""
+        modules = [
+            path
+            for path in _files(_PACKAGE)
+            if path.suffix in (".py", ".c", ".h")
+            and path.relative_to(_PACKAGE).parts[0] not in _NO_SAY
+        ]
+        return _hash(_content(path, _PACKAGE) for path in modules)
+
+
+def _files(folder: Path) -> list[Path]:
+    return sorted(p for p in folder.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
+
+
+def _is_below(path: Path, assignment: Assignment, folders: Iterable[str]) -> bool:
+    return path.relative_to(assignment.folder).parts[0] in folders
+
+
+def _content(path: Path, base: Path) -> str:
+    return f"{path.relative_to(base)} {hashlib.sha256(path.read_bytes()).hexdigest()}"
+
+
+def _hash(parts: Iterable[str]) -> str:
+    return hashlib.sha256(repr(list(parts)).encode()).hexdigest()

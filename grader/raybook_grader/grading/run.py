@@ -1,0 +1,151 @@
+"""Grading a class: plan, do what is not done yet, export and report."""
+
+from __future__ import annotations
+
+import fcntl
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from rich.console import Console
+
+from ..checks.program import HarnessFault
+from ..checks.reference import References
+from ..checks.rendering import picture_of
+from ..course import Course, ImageCheck
+from ..database import Database, Module, Student
+from ..errors import BadInput
+from ..jobs.pool import Died, run_jobs
+from ..jobs.progress import Progressing, progress
+from ..reports import write_reports
+from ..scoring import Verdict
+from ..submissions import Submission, find_submissions
+from .changes import changes, snapshot
+from .export import write_grades
+from .job import Job, Worker
+from .plan import Order, choose_assignments, plan, refuse_unknown
+from .result import ModuleResult, internal_error
+from .totals import totals
+from .waiting import Waiting
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run ended: how many modules the harness failed in, and where the results are."""
+
+    internal_errors: int
+    grades: Path
+    report: Path
+
+
+def grade_class(course: Course, worker: Worker, order: Order, console: Console) -> Outcome:
+    """Grade a class. A KeyboardInterrupt passes through; what is done by then is kept."""
+    assignments = choose_assignments(course, order.assignments, console)
+    owned = [path for assignment in assignments for path in assignment.owned]
+    submissions, ignored = find_submissions(order.submissions, owned)
+    refuse_unknown(order.regrade, submissions)
+    with _locked(order.out), closing(Database(order.out, course.name)) as database:
+        before = snapshot(database)
+        jobs = plan(course, worker, order, assignments, submissions, database)
+        _introduce(console, order.submissions, submissions, ignored, jobs, database)
+        if jobs:
+            _prepare(worker, {job.assignment for job in jobs}, console)
+        _do(jobs, worker, order.workers, database, console)
+        grades = write_grades(database, order.out)
+        report = write_reports(database, order.out)
+        after = snapshot(database)
+        for line in changes(before, after):
+            progress(console, "", 0).say(line)
+    errors = sum(grade.verdict is Verdict.INTERNAL_ERROR for grade in after.values())
+    return Outcome(errors, grades, report)
+
+
+@contextmanager
+def _locked(out: Path) -> Iterator[None]:
+    """The output folder, made if need be, for one run at a time; a kill frees it."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        lock = (out / ".lock").open("w")
+    except OSError as error:
+        raise BadInput(f"{out}: {error.strerror}, expected a folder to write to") from error
+    with lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise BadInput(f"{out}: another run is grading into it") from error
+        yield
+
+
+def _introduce(
+    console: Console,
+    folder: Path,
+    submissions: Sequence[Submission],
+    ignored: Sequence[str],
+    jobs: Sequence[Job],
+    database: Database,
+) -> None:
+    """Say what there is and what is left to do."""
+    say = progress(console, "", 0).say
+    if ignored:
+        say(f"{folder}: passed over, neither folder nor archive: {', '.join(ignored)}")
+    for submission in submissions:
+        if submission.problem:
+            say(f"{submission.id}: {submission.problem}")
+    waiting = database.waiting()
+    modules = sum(len(numbers) for numbers in waiting.values())
+    same = f", {len(jobs)} of them different" if len(jobs) < modules else ""
+    say(f"{len(submissions)} submissions; {modules} modules to grade{same}")
+
+
+def _prepare(worker: Worker, numbers: Collection[str], console: Console) -> None:
+    """Render the references that are not there yet, on all cores, before the workers need them."""
+    workshop = worker.workshop()
+    references = References(workshop)
+    pictures = {
+        picture_of(check)
+        for assignment in workshop.course.assignments
+        if assignment.number in numbers
+        for check in assignment.checks
+        if isinstance(check, ImageCheck)
+    }
+    for picture in sorted(pictures, key=lambda picture: picture.scene):
+        if references.is_ready(picture):
+            continue
+        say = progress(console, "", 0).say
+        say(f"rendering the reference of {picture.scene}, once")
+        try:
+            references.statistics(picture)
+        except HarnessFault as fault:
+            say(f"{fault}\nmodules that need it will be told as internal errors")
+
+
+def _do(
+    jobs: Sequence[Job], worker: Worker, workers: int, database: Database, console: Console
+) -> None:
+    waiting = Waiting(database.waiting())
+    with (
+        progress(console, "grading", len(jobs)) as bar,
+        closing(run_jobs(jobs, worker, workers)) as done,
+    ):
+        for job, outcome in done:
+            result = _result(outcome)
+            database.store(job.key, result, final=result.verdict is not Verdict.INTERNAL_ERROR)
+            bar.advance()
+            for name in waiting.finish(job.key):
+                _tell(database.student(name), database.modules(), bar)
+
+
+def _result(outcome: ModuleResult | Died) -> ModuleResult:
+    if isinstance(outcome, ModuleResult):
+        return outcome
+    return internal_error("the grader failed here; this is not your doing", outcome.message)
+
+
+def _tell(student: Student, modules: Sequence[Module], bar: Progressing) -> None:
+    """One line for a submission that is finished."""
+    sums = totals(student, modules)
+    points = "no total" if sums.score is None else f"{sums.score:g} of {sums.max_score:g}"
+    verdicts = {m: student.results.get(m.number) for m in modules}
+    words = [f"{m.number} {m.module}: {r.verdict}" for m, r in verdicts.items() if r is not None]
+    bar.say(f"{student.id}  {points}  ({', '.join(words)})")

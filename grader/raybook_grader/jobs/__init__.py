@@ -1,0 +1,1 @@
+"""Doing many pure jobs at once, and saying how far they are."""
