@@ -39,7 +39,7 @@ test: ## every test: format, C (Unity, also with sanitizers), Python, end to end
 	@$(MAKE) check-format
 	@$(MAKE) unit-tests
 	@$(MAKE) unit-tests OPT=asan
-	@$(MAKE) $(program) build/meshes/done compile_commands.json kit
+	@$(MAKE) -s $(program) build/meshes/done compile_commands.json kit
 	@$(python) -m pytest -q $(ARGS)
 
 format: ## writes the C files in the house style (.clang-format)

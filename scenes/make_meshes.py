@@ -223,6 +223,49 @@ def split_on_sphere(
     return result
 
 
+def flawed_ball() -> Mesh:
+    """The ball with what exports from modellers contain: faces twice, and faces without area.
+
+    It must look just like the ball without normals.
+    """
+    mesh = ball()
+    mesh.title = "Ball with duplicate and zero-area faces"
+    mesh.normals = []
+    sound = [[(corner[0],) for corner in face] for face in mesh.faces]
+    mesh.faces = []
+    for number, (a, b, c) in enumerate(sound):
+        mesh.faces.append([a, b, c])
+        if number % 3 == 0:
+            mesh.faces.append([b, c, a])  # the same triangle again
+        if number % 5 == 0:
+            mesh.faces += [[a, a, b], [c, c, c]]  # an edge and a point
+        if number % 7 == 0:
+            ends = (mesh.positions[a[0]], mesh.positions[b[0]])
+            mesh.faces.append([a, b, (len(mesh.positions),)])  # three points in a row
+            mesh.positions.append(scale(add(*ends), 0.5))
+    return mesh
+
+
+def blocks() -> Mesh:
+    """A floor and sixteen blocks of whole-numbered corners: every plane is shared by many boxes."""
+    mesh = Mesh("Blocks on whole numbers")
+    mesh.add_polygon([(-4.0, 0.0, 4.0), (4.0, 0.0, 4.0), (4.0, 0.0, -4.0), (-4.0, 0.0, -4.0)])
+    for i in range(4):
+        for k in range(4):
+            add_block(mesh, 2.0 * i - 4.0, 2.0 * k - 4.0, float((i * 3 + k * 2) % 4))
+    return mesh
+
+
+def add_block(mesh: Mesh, x: float, z: float, height: float) -> None:
+    """A block without floor on [x, x + 1] x [z, z + 1]; nothing if it has no height."""
+    if height == 0.0:
+        return
+    corners = [(x, z + 1), (x + 1, z + 1), (x + 1, z), (x, z)]
+    mesh.add_polygon([(a, height, b) for a, b in corners])
+    for (a, b), (c, d) in zip(corners, corners[1:] + corners[:1], strict=True):
+        mesh.add_polygon([(a, 0.0, b), (c, 0.0, d), (c, height, d), (a, height, b)])
+
+
 # The studio ------------------------------------------------------------------------------------
 
 
@@ -354,6 +397,8 @@ MESHES: dict[str, Callable[[], Mesh]] = {
     "cbox-lamp.obj": cornell_lamp,
     "cube.obj": cube,
     "ball.obj": ball,
+    "flawed-ball.obj": flawed_ball,
+    "blocks.obj": blocks,
     "backdrop.obj": backdrop,
     "knot-100k.obj": knot_100k,
 }

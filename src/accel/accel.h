@@ -30,9 +30,9 @@ struct accel {
 /* Is this kind in this build? All are but, perhaps, ACCEL_EMBREE. */
 bool accel_available(enum accel_kind kind);
 
-/* Builds a structure of an available kind over boxes[0 .. primitive_count - 1] and fills order
- * (room for primitive_count) with the order in which its leaves name the
- * primitives. Release with accel_free. */
+/* Builds a structure of an available kind over boxes[0 .. primitive_count - 1]
+ * and fills order (room for primitive_count) with the order in which its
+ * leaves name the primitives. Release with accel_free. */
 struct accel accel_build(enum accel_kind kind, const aabb boxes[],
                          uint32_t primitive_count, uint32_t order[]);
 

@@ -55,7 +55,7 @@ uint32_t bvh_build(const aabb boxes[], uint32_t primitive_count,
                    struct bvh_node nodes[], uint32_t order[]);
 
 /* The nearest hit. Calls test(context, first, count, r, hit) for leaves that
- * may hold it; each test lowers r->t_max to the hit it stores, so what lies
+ * may hold it; each test lowers r->t_max to about the hit, so what lies
  * beyond can be skipped. Returns whether any test returned true. */
 bool bvh_nearest(const struct bvh *tree, ray *r, leaf_test_fn *test,
                  const void *context, void *hit);

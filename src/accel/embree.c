@@ -18,8 +18,7 @@ struct embree {
     RTCScene scene;
 };
 
-/* Building ------------------------------------------------------------------
- */
+/* Building ---------------------------------------------------------------- */
 
 /* What the bounds callback reads. */
 struct source {
@@ -102,8 +101,7 @@ void embree_free(struct embree *e)
     mem_free(e);
 }
 
-/* Asking --------------------------------------------------------------------
- */
+/* Asking ------------------------------------------------------------------ */
 
 /* One question on its way through Embree: its context comes first, so that a
  * callback finds ours around the one that it is given. */

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/nearest.h"
+#include "program/option_values.h"
 #include "scene/settings.h"
 
 const char *const aov_names[] = {"albedo",   "normal",    "depth",    "uv",
@@ -17,70 +18,35 @@ const char *const aov_names[] = {"albedo",   "normal",    "depth",    "uv",
 typedef bool set_fn(struct options *o, const char *name, const char *value,
                     struct error *err);
 
-static bool wrong(const char *name, const char *value, const char *expected,
-                  struct error *err)
-{
-    return error_set(err, "%s %s: expected %s (try --help)", name, value,
-                     expected);
-}
-
-static bool read_whole(const char *name, const char *text, long long least,
-                       long long most, long long *out, struct error *err)
-{
-    char expected[80], *end;
-    errno = 0;
-    *out = strtoll(text, &end, 10);
-    if (errno == 0 && end != text && *end == '\0' && *out >= least &&
-        *out <= most)
-        return true;
-    snprintf(expected, sizeof expected, "a whole number from %lld to %lld",
-             least, most);
-    return wrong(name, text, expected, err);
-}
-
-static bool read_int(const char *name, const char *text, int most, int *out,
-                     struct error *err)
-{
-    long long value;
-    if (!read_whole(name, text, 1, most, &value, err))
-        return false;
-    *out = (int)value;
-    return true;
-}
-
-static bool has_ending(const char *path, const char *ending)
-{
-    size_t length = strlen(path), tail = strlen(ending);
-    return length > tail && strcmp(path + length - tail, ending) == 0;
-}
-
 static bool set_output(struct options *o, const char *name, const char *value,
                        struct error *err)
 {
     o->output = value;
-    return has_ending(value, ".exr") || has_ending(value, ".png") ||
-           wrong(name, value, "a file name that ends in .exr or .png", err);
+    return option_has_ending(value, ".exr") ||
+           option_has_ending(value, ".png") ||
+           option_wrong(name, value, "a file name that ends in .exr or .png",
+                        err);
 }
 
 static bool set_png(struct options *o, const char *name, const char *value,
                     struct error *err)
 {
     o->png = value;
-    return has_ending(value, ".png") ||
-           wrong(name, value, "a file name that ends in .png", err);
+    return option_has_ending(value, ".png") ||
+           option_wrong(name, value, "a file name that ends in .png", err);
 }
 
 static bool set_spp(struct options *o, const char *name, const char *value,
                     struct error *err)
 {
-    return read_int(name, value, SPP_MAX, &o->spp, err);
+    return option_read_int(name, value, SPP_MAX, &o->spp, err);
 }
 
 static bool set_seed(struct options *o, const char *name, const char *value,
                      struct error *err)
 {
     long long seed;
-    if (!read_whole(name, value, 0, INT64_C(1) << 53, &seed, err))
+    if (!option_read_whole(name, value, 0, INT64_C(1) << 53, &seed, err))
         return false;
     o->seed = seed;
     return true;
@@ -89,38 +55,21 @@ static bool set_seed(struct options *o, const char *name, const char *value,
 static bool set_threads(struct options *o, const char *name, const char *value,
                         struct error *err)
 {
-    return read_int(name, value, 1024, &o->threads, err);
+    return option_read_int(name, value, 1024, &o->threads, err);
 }
 
 static bool set_depth(struct options *o, const char *name, const char *value,
                       struct error *err)
 {
-    return read_int(name, value, DEPTH_MAX, &o->max_depth, err);
-}
-
-/* count whole numbers with one separator between them and nothing after. */
-static bool read_list(const char *text, char separator, int count, int out[])
-{
-    for (int i = 0; i < count; i++) {
-        char *end;
-        errno = 0;
-        long value = strtol(text, &end, 10);
-        if (errno != 0 || end == text || value < 0 || value > FILM_MAX_SIDE)
-            return false;
-        if (*end != (i + 1 < count ? separator : '\0'))
-            return false;
-        out[i] = (int)value;
-        text = end + 1;
-    }
-    return true;
+    return option_read_int(name, value, DEPTH_MAX, &o->max_depth, err);
 }
 
 static bool set_resolution(struct options *o, const char *name,
                            const char *value, struct error *err)
 {
     int size[2];
-    if (!read_list(value, 'x', 2, size) || size[0] < 1 || size[1] < 1)
-        return wrong(name, value, "WIDTHxHEIGHT, such as 640x480", err);
+    if (!option_read_list(value, 'x', 2, size) || size[0] < 1 || size[1] < 1)
+        return option_wrong(name, value, "WIDTHxHEIGHT, such as 640x480", err);
     if ((int64_t)size[0] * size[1] > FILM_MAX_PIXELS)
         return error_set(err, "%s %s: too many pixels, expected at most %d",
                          name, value, FILM_MAX_PIXELS);
@@ -133,32 +82,19 @@ static bool set_crop(struct options *o, const char *name, const char *value,
                      struct error *err)
 {
     int edge[4];
-    if (!read_list(value, ',', 4, edge) || edge[0] >= edge[2] ||
+    if (!option_read_list(value, ',', 4, edge) || edge[0] >= edge[2] ||
         edge[1] >= edge[3])
-        return wrong(name, value, "X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1", err);
+        return option_wrong(name, value, "X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1",
+                            err);
     o->has_crop = true;
     o->crop = (struct window){edge[0], edge[1], edge[2], edge[3]};
     return true;
 }
 
-/* An index into a NULL-terminated list of names, or -1 with a message. */
-static int read_name(const char *name, const char *value,
-                     const char *const names[], struct error *err)
-{
-    for (int i = 0; names[i] != NULL; i++)
-        if (strcmp(value, names[i]) == 0)
-            return i;
-    const char *near = nearest_name(value, names);
-    error_set(err, "%s %s: unknown name%s%s%s", name, value,
-              near ? ", did you mean " : " (try --help)", near ? near : "",
-              near ? "?" : "");
-    return -1;
-}
-
 static bool set_accel(struct options *o, const char *name, const char *value,
                       struct error *err)
 {
-    int kind = read_name(name, value, accel_names, err);
+    int kind = option_read_name(name, value, accel_names, err);
     if (kind < 0)
         return false;
     o->accel = (enum accel_kind)kind;
@@ -172,7 +108,7 @@ static bool set_accel(struct options *o, const char *name, const char *value,
 static bool set_integrator(struct options *o, const char *name,
                            const char *value, struct error *err)
 {
-    o->integrator = read_name(name, value, integrator_names, err);
+    o->integrator = option_read_name(name, value, integrator_names, err);
     return o->integrator >= 0;
 }
 
@@ -192,7 +128,7 @@ static bool set_time_limit(struct options *o, const char *name,
     if (end != value && *end == '\0' && o->time_limit > 0.0 &&
         o->time_limit < 1e9)
         return true;
-    return wrong(name, value, "a number of seconds above 0", err);
+    return option_wrong(name, value, "a number of seconds above 0", err);
 }
 
 static bool set_stats(struct options *o, const char *name, const char *value,
@@ -232,21 +168,21 @@ static bool set_aov(struct options *o, const char *name, const char *value,
         char word[32];
         size_t length = strcspn(value, ",");
         snprintf(word, sizeof word, "%.*s", (int)length, value);
-        int index = read_name(name, word, aov_names, err);
+        int index = option_read_name(name, word, aov_names, err);
         if (index < 0)
             return false;
         o->aovs |= 1u << index;
         value += length + (value[length] == ',');
     }
-    return o->aovs != 0 || wrong(name, value, "a list of channels", err);
+    return o->aovs != 0 || option_wrong(name, value, "a list of channels", err);
 }
 
 static bool set_pixel(struct options *o, const char *name, const char *value,
                       struct error *err)
 {
     int place[2];
-    if (!read_list(value, ',', 2, place))
-        return wrong(name, value, "X,Y", err);
+    if (!option_read_list(value, ',', 2, place))
+        return option_wrong(name, value, "X,Y", err);
     o->has_pixel = true;
     o->pixel_x = place[0];
     o->pixel_y = place[1];

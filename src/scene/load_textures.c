@@ -73,7 +73,7 @@ static void load_image(struct json_reader *j, const cJSON *node,
     load_generator(j, json_get(node, "tex_coordinate_generator"), out);
     out->image.filter =
         filter ? (enum texture_filter)json_name(j, filter, texture_filter_names)
-               : FILTER_BILINEAR;
+               : FILTER_TRILINEAR;
     out->image.max_anisotropy =
         json_float(j, json_get(node, "max_anisotropy"), anisotropy, 8.0f);
     int wrap = json_name(j, json_get(node, "wrap"), texture_wrap_names);

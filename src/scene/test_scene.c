@@ -188,10 +188,11 @@ static void the_nearest_object_is_hit_with_its_material(void)
             ACCEL_BVH);
     struct scene_hit hit = nearest(vec3_make(0, 0, 10), vec3_make(0, 0, 9));
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 6, hit.t);
-    const struct material *m = NULL;
+    const struct object *o = NULL;
     ray r = ray_make(vec3_make(0, 0, 10), vec3_make(0, 0, -1), 0, INFINITY);
-    struct surface s = scene_surface(&scene, &r, &hit, &m);
-    TEST_ASSERT_EQUAL_PTR(scene.materials, m);
+    struct surface s = scene_surface(&scene, &r, &hit, &o);
+    TEST_ASSERT_EQUAL_PTR(scene.objects + 1, o);
+    TEST_ASSERT_EQUAL_PTR(scene.materials, o->material);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 4, s.position.z);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1, s.geometric_normal.z);
 }

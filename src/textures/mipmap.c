@@ -289,10 +289,10 @@ static void limit_repeats(struct ellipse *e, const struct image *image)
 /* The ellipse in texels of a level, blurred by bilinear interpolation.
  *
  * Interpolation blurs with a variance of 1/6 along each axis, and the weights
- * below have one of 0.21 when the ellipse is the unit circle: so the sum of texels that
- * comes nearest to the integral over the interpolated image adds about 3/4 to
- * the squares of both axes. (Heckbert, whose texels are little Gaussians, adds
- * 1.) It also keeps the ellipse from falling between the texels. */
+ * below have one of 0.21 when the ellipse is the unit circle: so the sum of
+ * texels that comes nearest to the integral over the interpolated image adds
+ * about 3/4 to the squares of both axes. (Heckbert, whose texels are little
+ * Gaussians, adds 1.) It also keeps the ellipse from falling between the texels. */
 static struct ellipse ellipse_on_level(const struct ellipse *e,
                                        const struct mipmap *m, int level)
 {
@@ -316,7 +316,8 @@ static double ewa_weight(double distance2)
     return fmaxf(expf(-2.0f * (float)distance2) - lowest, 0.0f);
 }
 
-/* One row of an ellipse: p' E^-1 p = from_row + ((x - middle) / half_width)^2 */
+/* One row of an ellipse:
+ * p' E^-1 p = from_row + ((x - middle) / half_width)^2 */
 struct ewa_row {
     double from_row, middle, half_width;
 };

@@ -7,9 +7,6 @@ from convert_textures import NoCounterpart, read_image
 from mitsuba_types import Plugin, load_mitsuba, rgb
 from numpy.typing import NDArray
 
-FALLOFF_SIDE = 1024
-"""Texels of the picture of a spot light's falloff: interpolated to 1e-5."""
-
 TO_MITSUBA_SKY = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]])
 """From our environment's local directions to those of Mitsuba's, whose image is turned left to
 right as well. Ours: pole +z, u = atan2(y, x) / 2 pi. Mitsuba's: pole +y, u' = atan2(x', -z') / 2
@@ -41,16 +38,12 @@ def point(position: list[float], flux: list[float]) -> Plugin:
 
 
 def spot(light: Plugin) -> Plugin:
-    """Mitsuba's light falls off linearly with the angle, ours as a smoothstep of its cosine. So
-    its own falloff is put out of the way, at the very edge, and ours is projected as a picture:
-    over the square that encloses the cone one unit in front of the light."""
+    """Both fall off evenly with the angle between beam and cutoff."""
     mi = load_mitsuba()
     origin = np.array(light["position"], dtype=float)
     axis = np.array(light["direction"], dtype=float)
     side = np.eye(3)[np.argmin(np.abs(axis))]
     cutoff = float(light.get("cutoff_angle", 20))
-    beam = float(light.get("beam_angle", 0.75 * cutoff))
-    picture = falloff_picture(np.radians(cutoff), np.radians(beam))
     return {
         "type": "spot",
         "to_world": mi.ScalarTransform4f().look_at(
@@ -58,20 +51,8 @@ def spot(light: Plugin) -> Plugin:
         ),
         "intensity": rgb(light["intensity"]),
         "cutoff_angle": cutoff,
-        "beam_width": cutoff * (1 - 1e-5),
-        "texture": {"type": "bitmap", "bitmap": mi.Bitmap(picture), "raw": True},
+        "beam_width": min(float(light.get("beam_angle", 0.75 * cutoff)), cutoff * (1 - 1e-5)),
     }
-
-
-def falloff_picture(cutoff: float, beam: float) -> NDArray[np.float32]:
-    """(FALLOFF_SIDE, FALLOFF_SIDE, 3). A hard edge is left to Mitsuba's cutoff."""
-    at = (2 * (np.arange(FALLOFF_SIDE) + 0.5) / FALLOFF_SIDE - 1) * np.tan(cutoff)
-    cosine = 1 / np.sqrt(1 + at[:, None] ** 2 + at[None, :] ** 2)
-    if beam == cutoff:
-        return np.ones((FALLOFF_SIDE, FALLOFF_SIDE, 3), np.float32)
-    x = np.clip((cosine - np.cos(cutoff)) / (np.cos(beam) - np.cos(cutoff)), 0, 1)
-    falloff = x * x * (3 - 2 * x)
-    return np.repeat(falloff[..., None], 3, axis=-1).astype(np.float32)
 
 
 def convert_environment(folder: Path, environment: Plugin, texture: Plugin) -> Plugin:

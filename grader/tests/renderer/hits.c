@@ -39,8 +39,7 @@ struct counts {
     uint64_t from_inside, leaks;
 };
 
-/* Setting up ----------------------------------------------------------------
- */
+/* Setting up -------------------------------------------------------------- */
 
 static void stop(const char *path, const char *what)
 {
@@ -95,8 +94,7 @@ static void make_world(struct world *w, const char *mesh, const char *inside)
         w->embree = make_scene(w, ACCEL_EMBREE);
 }
 
-/* Rays ----------------------------------------------------------------------
- */
+/* Rays -------------------------------------------------------------------- */
 
 /* In the mesh's box, made larger about its centre. */
 static vec3 random_point(const struct world *w, uint64_t key, uint32_t first,
@@ -154,8 +152,7 @@ static vec3 make_ray(const struct world *w, uint64_t seed, uint64_t index,
     return vec3_sub(target(w, key, index / 2 % 4), from);
 }
 
-/* Comparing -----------------------------------------------------------------
- */
+/* Comparing --------------------------------------------------------------- */
 
 static void tell(const char *what, uint64_t index, const ray *r,
                  const struct scene_hit *a, const struct scene_hit *b)

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 from hit_meshes import HitMesh, hit_meshes
-from renderer_runs import ROOT, make
+from renderer_runs import CORNELL, ROOT, make, run
 
 FULL = os.environ.get("RAYBOOK_FULL") == "1"
 RAYS = 1_666_667 if FULL else 20_000
@@ -123,3 +123,20 @@ def test_the_first_of_equally_near_triangles_is_hit_whatever_the_order(
 ) -> None:
     program = workshop.program("src/scene/scene.c", "p->triangle < q->triangle", "true")
     assert workshop.hits(program, meshes["cube"], 20_000)["linear_differs"] > 0
+
+
+def test_a_build_without_embree_refuses_it_by_name(tmp_path: Path) -> None:
+    """accel.c compiled as build.mk does it where Embree is not installed."""
+    objects = _words("list-objects")
+    main = objects[0].replace("accel/aabb.o", "main.o")
+    left = [path for path in objects if not path.endswith(("accel/accel.o", "accel/embree.o"))]
+    compiler = [word for word in _words("list-compiler") if word != "-DRAYBOOK_EMBREE"]
+    libraries = [word for word in _words("list-libraries") if word != "-lembree3"]
+    program = tmp_path / "raybook"
+    command = [*compiler, "src/accel/accel.c", main, *left, *libraries, "-o", str(program)]
+    subprocess.run(command, cwd=ROOT, check=True)
+    done = run(CORNELL, "--accel", "embree", cwd=tmp_path, binary=program)
+    assert done.returncode == 2
+    assert done.stderr == (
+        "raybook: --accel embree: this build has no Embree: install libembree-dev and build again\n"
+    )
