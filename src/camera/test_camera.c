@@ -19,7 +19,8 @@ void tearDown(void)
 static struct camera looking_down_z(float fov, int width, int height)
 {
     struct camera_settings settings = {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}, fov};
-    struct film_settings film = {width, height, 0.5f};
+    struct film_settings film = {
+        .width = width, .height = height, .filter_radius = 0.5f};
     return camera_make(&settings, &film);
 }
 

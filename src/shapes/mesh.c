@@ -78,6 +78,20 @@ static void position_differentials(const vec3 p[3], const vec2 uv[3],
         vec3_frame(out->geometric_normal, &out->dp_du, &out->dp_dv);
 }
 
+/* In double precision: the cross product of edges of 10^10 metres has a square
+ * that no float can hold, and so has one of 10^-10. */
+static vec3 unit_normal(const vec3 p[3])
+{
+    double a[3] = {(double)p[1].x - p[0].x, (double)p[1].y - p[0].y,
+                   (double)p[1].z - p[0].z};
+    double b[3] = {(double)p[2].x - p[0].x, (double)p[2].y - p[0].y,
+                   (double)p[2].z - p[0].z};
+    double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                   a[0] * b[1] - a[1] * b[0]};
+    double k = 1.0 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    return vec3_make((float)(k * n[0]), (float)(k * n[1]), (float)(k * n[2]));
+}
+
 struct surface mesh_surface(const struct mesh *m, uint32_t triangle,
                             const struct triangle_hit *hit)
 {
@@ -89,8 +103,7 @@ struct surface mesh_surface(const struct mesh *m, uint32_t triangle,
     mesh_uvs(m, triangle, uv);
     out.position = blend(p, b);
     out.position_error = blend_error(p, b);
-    out.geometric_normal =
-        vec3_normalize(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0])));
+    out.geometric_normal = unit_normal(p);
     out.shading_normal = smooth_normal(m, triangle, b, out.geometric_normal);
     out.uv = vec2_make(b[0] * uv[0].x + b[1] * uv[1].x + b[2] * uv[2].x,
                        b[0] * uv[0].y + b[1] * uv[1].y + b[2] * uv[2].y);

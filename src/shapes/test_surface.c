@@ -179,13 +179,13 @@ static void no_ray_hits_a_sphere_far_from_the_origin(void)
 
 static struct surface floor_point(float x, float level, float z)
 {
-    struct surface s = {vec3_make(x, level, z),
-                        vec3_scale(vec3_abs(vec3_make(x, level, z)), 4e-7f),
-                        {0, 1, 0},
-                        {0, 1, 0},
-                        {0, 0},
-                        {1, 0, 0},
-                        {0, 0, 1}};
+    vec3 at = vec3_make(x, level, z);
+    struct surface s = {.position = at,
+                        .position_error = vec3_scale(vec3_abs(at), 4e-7f),
+                        .geometric_normal = {0, 1, 0},
+                        .shading_normal = {0, 1, 0},
+                        .dp_du = {1, 0, 0},
+                        .dp_dv = {0, 0, 1}};
     return s;
 }
 

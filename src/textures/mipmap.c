@@ -292,7 +292,8 @@ static void limit_repeats(struct ellipse *e, const struct image *image)
  * below have one of 0.21 when the ellipse is the unit circle: so the sum of
  * texels that comes nearest to the integral over the interpolated image adds
  * about 3/4 to the squares of both axes. (Heckbert, whose texels are little
- * Gaussians, adds 1.) It also keeps the ellipse from falling between the texels. */
+ * Gaussians, adds 1.) It also keeps the ellipse from falling between the
+ * texels. */
 static struct ellipse ellipse_on_level(const struct ellipse *e,
                                        const struct mipmap *m, int level)
 {

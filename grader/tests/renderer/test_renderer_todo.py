@@ -76,15 +76,17 @@ def test_every_condition_on_an_exercise_is_known() -> None:
 
 
 def scene(folder: Path) -> Path:
-    """A mesh with texture coordinates, a sphere, two lights."""
+    """A mesh with texture coordinates, a sphere, a clear sphere, two lights."""
     corners = "v -3 -1 2\nv 3 -1 2\nv 3 -1 -4\nv -3 -1 -4\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
     write_mesh(folder, "floor.obj", corners + "f 1/1 2/2 3/3 4/4\n")
+    paint = diffuse(paint=[0.8, 0.7, 0.6])
+    paint["materials"]["clear"] = {"type": "refraction"}
     description: Json = {
         "integrator": {"point_light_position": [2, 3, 3], "point_light_flux": [300, 300, 300]},
         "camera": {"position": [0, 0.5, 5], "fov": 50},
-        "objects": [mesh("floor.obj", "paint"), sphere([0, 0, 0], 1, "paint")],
+        "objects": [mesh("floor.obj", "paint"), sphere([0, 0, 0], 1, "paint"), sphere([0, 0.5, 3], 0.3, "clear")],
         "lights": [point_light([-3, 2, 1], [100, 50, 20])],
-        **diffuse(paint=[0.8, 0.7, 0.6]),
+        **paint,
     }
     return write_scene(folder, description)
 
