@@ -114,7 +114,8 @@ static void the_frame_follows_ref_up(void)
 {
     struct camera_settings settings = {
         {10, 0, 0}, {0, 0, 0}, {-3, 0, 0.25f}, 90};
-    struct film_settings film = {10, 10, 0.5f};
+    struct film_settings film = {
+        .width = 10, .height = 10, .filter_radius = 0.5f};
     struct camera c = camera_make(&settings, &film);
     expect_ray(&c, 5, 5, vec3_make(-1, 0, 0), "forward");
     expect_ray(&c, 5, 0, vec3_make(-1, 0, 1), "up is +z");

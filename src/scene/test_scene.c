@@ -214,10 +214,10 @@ static void an_empty_scene_is_missed(void)
 static bool shadowed(float x, vec3 light)
 {
     struct scene_hit hit = nearest(vec3_make(x, 0.25f, 0), vec3_make(x, 0, 0));
-    const struct material *m;
+    const struct object *o;
     ray r =
         ray_make(vec3_make(x, 0.25f, 0), vec3_make(0, -0.25f, 0), 0, INFINITY);
-    struct surface s = scene_surface(&scene, &r, &hit, &m);
+    struct surface s = scene_surface(&scene, &r, &hit, &o);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0, s.position.y);
     return scene_segment_blocked(&scene, &s, light);
 }
