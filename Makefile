@@ -7,7 +7,7 @@ MAKEFLAGS += --no-print-directory
 
 include src/build.mk
 
-SCENE ?= scenes/cornell-box.json scenes/knot.json
+SCENE ?= $(filter-out %.schema.json,$(sort $(wildcard scenes/*.json)))
 ARGS ?=
 OUT ?=
 A ?=
@@ -30,9 +30,10 @@ build: $(program) ## compiles the renderer; says where it is
 
 # The set-up comes first, in a make of its own: what the second make reads
 # (pkg-config) may only be there after it.
-render: ## [SCENE=file.json] [ARGS="--spp 16"] draws the demo scenes into build/out/
+render: ## [SCENE=file.json] [ARGS="--spp 16"] draws the demo scenes and a contact sheet into build/out/
 	@.setup/setup.sh
 	@$(MAKE) render-scenes
+	@$(if $(word 2,$(SCENE)),$(python) scenes/contact_sheet.py build/out/contact-sheet.png $(SCENE))
 
 test: ## every test: format, C (Unity, also with sanitizers), Python, end to end
 	@.setup/setup.sh
@@ -64,7 +65,7 @@ grade: ## SUBMISSIONS=dir [OUT=dir] [A=01] grades a class
 
 # The reference as objects, for linking with one module of a student.
 kit: build/meshes/done ## what the grader links students' modules with: build/kit/
-	@$(MAKE) OPT=release objects lto= config=kit
+	@$(MAKE) OPT=release EMBREE=no objects lto= config=kit
 
 objects: $(objects)
 	@python3 grader/make_kit.py --objects $(objdir) --out build/kit --version '$(VERSION)' \

@@ -126,8 +126,10 @@ compile_commands.json: $(stamp) src/build.mk
 	    comma=','; done; printf '\n]\n'; } > $@.new
 	@mv $@.new $@
 
-build/meshes/done: scenes/make_meshes.py
+# The scripts leave alone what is up to date.
+build/meshes/done: $(wildcard scenes/*.py)
 	@python3 scenes/make_meshes.py build/meshes
+	@python3 scenes/make_images.py build/images
 	@touch $@
 
 # SCENE and ARGS are the caller's.
@@ -135,7 +137,8 @@ render-scenes: $(program) build/meshes/done
 	@mkdir -p build/out
 	@for scene in $(SCENE); do \
 	    name=$$(basename $$scene .json); \
-	    $(program) $$scene -o build/out/$$name.exr --png build/out/$$name.png $(ARGS) || exit; \
+	    $(program) $$scene -o build/out/$$name.exr --png build/out/$$name.png \
+	        --stats build/out/$$name.stats.json $(ARGS) || exit; \
 	done
 
 # V=1 shows the commands themselves.

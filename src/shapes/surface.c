@@ -3,6 +3,8 @@
 
 #include <float.h>
 
+#include "base/constants.h"
+
 /* The ends of an open range of t, as floats. */
 static const float just_above_0 = FLT_MIN, just_below_1 = 1.0f - 0x1p-24f;
 
@@ -77,8 +79,21 @@ ray surface_ray(const struct surface *s, vec3 direction, float t_max)
     return ray_make(leave(s, direction), direction, just_above_0, t_max);
 }
 
+/* How far before the point the way ends, in units of the way: the bound on the
+ * error of t where the way meets a surface that holds the point (a lamp that
+ * lies on a wall must not be hidden by that wall). Each coordinate passes
+ * through at most 16 roundings on its way into t. */
+static float slack_at_end(vec3 start, vec3 point)
+{
+    vec3 size = vec3_add(vec3_abs(start), vec3_abs(point));
+    float length = vec3_length(vec3_sub(point, start));
+    float slack = rounding_bound(16) * (size.x + size.y + size.z) / length;
+    return slack < 0.5f ? slack : 0.5f;
+}
+
 ray surface_segment(const struct surface *s, vec3 point)
 {
     vec3 start = leave(s, vec3_sub(point, s->position));
-    return ray_make(start, vec3_sub(point, start), just_above_0, just_below_1);
+    float end = fminf(just_below_1, 1.0f - slack_at_end(start, point));
+    return ray_make(start, vec3_sub(point, start), just_above_0, end);
 }

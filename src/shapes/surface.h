@@ -53,8 +53,9 @@ void surface_step(const struct surface *s, const ray *r,
  * edition, section 3.9.5. */
 ray surface_ray(const struct surface *s, vec3 direction, float t_max);
 
-/* The same for the straight way to a point: t runs up to, not including, 1,
- * which is the point itself. */
+/* The same for the straight way to a point. t = 1 is the point itself and not
+ * in the range; the range ends as much earlier as rounding may move a surface
+ * that holds the point, so that the point's own surface is not in the way. */
 ray surface_segment(const struct surface *s, vec3 point);
 
 #endif

@@ -227,7 +227,7 @@ static void a_segment_ends_before_its_point(void)
     vec3 light = vec3_make(0, 8, 6);
     ray r = surface_segment(&s, light);
     vec3 end = ray_at(&r, 1.0f);
-    TEST_ASSERT_TRUE(r.t_min > 0.0f && r.t_max < 1.0f && r.t_max > 0.999999f);
+    TEST_ASSERT_TRUE(r.t_min > 0.0f && r.t_max < 1.0f && r.t_max > 0.99999f);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, light.y, end.y);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, light.z, end.z);
 }
