@@ -37,7 +37,7 @@ render: ## [SCENE=file.json] [ARGS="--spp 16"] draws the demo scenes and a conta
 
 test: ## every test: format, C (Unity, also with sanitizers), Python, end to end
 	@.setup/setup.sh
-	@$(MAKE) check-format
+	@$(MAKE) check-format check-python
 	@$(MAKE) unit-tests
 	@$(MAKE) unit-tests OPT=asan
 	@$(MAKE) -s $(program) build/meshes/done compile_commands.json kit
@@ -48,6 +48,10 @@ format: ## writes the C files in the house style (.clang-format)
 
 check-format:
 	@clang-format --dry-run --Werror $(c_files)
+
+check-python:
+	@build/venv/bin/ruff check --quiet grader
+	@build/venv/bin/mypy --config-file grader/pyproject.toml --no-error-summary
 
 c_files = $(shell find src assignments grader -name '*.[ch]' | LC_ALL=C sort)
 
@@ -75,5 +79,5 @@ objects: $(objects)
 clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
-.PHONY: help setup build render test format check-format handout grade kit objects \
+.PHONY: help setup build render test format check-format check-python handout grade kit objects \
     clean

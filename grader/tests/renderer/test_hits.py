@@ -1,9 +1,9 @@
 """All accelerators find the same hits, bit for bit, and a closed mesh leaks no ray.
 
 Six meshes, four kinds of rays, half of them from inside where there is an inside; see hits.c.
-`make test` casts 120,000 rays. RAYBOOK_FULL=1 casts 10,000,002: six minutes on one busy core. Testing every
-triangle is slow, so only as many rays are checked against that as LINEAR_TESTS allows: with the
-full number the cube's all, 200,000 of the slivers', 4,000 of the knot's.
+`make test` casts 120,000 rays. RAYBOOK_FULL=1 casts 10,000,002: six minutes on one busy core.
+Testing every triangle is slow, so only as many rays are checked against that as LINEAR_TESTS
+allows: with the full number the cube's all, 200,000 of the slivers', 4,000 of the knot's.
 """
 
 from __future__ import annotations

@@ -84,7 +84,11 @@ def scene(folder: Path) -> Path:
     description: Json = {
         "integrator": {"point_light_position": [2, 3, 3], "point_light_flux": [300, 300, 300]},
         "camera": {"position": [0, 0.5, 5], "fov": 50},
-        "objects": [mesh("floor.obj", "paint"), sphere([0, 0, 0], 1, "paint"), sphere([0, 0.5, 3], 0.3, "clear")],
+        "objects": [
+            mesh("floor.obj", "paint"),
+            sphere([0, 0, 0], 1, "paint"),
+            sphere([0, 0.5, 3], 0.3, "clear"),
+        ],
         "lights": [point_light([-3, 2, 1], [100, 50, 20])],
         **paint,
     }
