@@ -10,6 +10,7 @@ import pytest
 from renderer_runs import (
     CORNELL,
     KNOT,
+    ROOT,
     Json,
     Pixels,
     diffuse,
@@ -136,3 +137,14 @@ def test_more_samples_go_on_where_fewer_ended(tmp_path: Path) -> None:
         assert np.isin(now - before, (0, 1)).all()
         before = now
     assert 0.2 < before.mean() / 12 < 0.8 and len(np.unique(before)) > 8
+
+
+@pytest.mark.parametrize("name", ["cornell-box", "glass-box", "veach-mis"])
+def test_gcc_and_clang_agree(tmp_path: Path, name: str) -> None:
+    """Within 1e-4 relative: no contraction, no unsafe reordering; usually the same bits."""
+    scene = ROOT / "scenes" / f"{name}.json"
+    arguments = ("--resolution", "32x32", "--spp", "8")
+    by_gcc = render(scene, tmp_path, *arguments)
+    by_clang = render(scene, tmp_path, *arguments, binary=program(cc="clang"))
+    assert by_gcc.mean() > 0
+    np.testing.assert_allclose(by_clang, by_gcc, rtol=1e-4, atol=1e-6)
