@@ -67,6 +67,11 @@ grade: ## SUBMISSIONS=dir [OUT=dir] [A=01] grades a class
 	@$(grader) grade "$(SUBMISSIONS)" --out "$(or $(OUT),build/grades)" \
 	    $(if $(A),--assignment $(A)) $(ARGS)
 
+museum: ## [A=03] judges all alternatives and mistakes; which public tests catch which
+	@.setup/setup.sh
+	@$(MAKE) kit
+	@$(grader) museum $(if $(A),--assignment $(A)) $(ARGS)
+
 # The reference as objects, for linking with one module of a student.
 kit: build/meshes/done ## what the grader links students' modules with: build/kit/
 	@$(MAKE) OPT=release EMBREE=no objects lto= config=kit
@@ -79,5 +84,5 @@ objects: $(objects)
 clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
-.PHONY: help setup build render test format check-format check-python handout grade kit objects \
+.PHONY: help setup build render test format check-format check-python handout grade museum kit objects \
     clean

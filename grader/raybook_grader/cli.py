@@ -13,6 +13,7 @@ from .errors import BadInput
 from .grading import commands as grading
 from .judge import commands as judge
 from .literate import commands as literate
+from .museum import commands as museum
 from .sandbox import SandboxUnavailable
 
 
@@ -23,7 +24,7 @@ def parser() -> argparse.ArgumentParser:
         description="Grades submissions to the Raybook course; makes its student edition.",
     )
     commands = top.add_subparsers(metavar="COMMAND", required=True)
-    for part in (grading, judge, literate):
+    for part in (grading, judge, museum, literate):
         part.add_commands(commands)
     return top
 

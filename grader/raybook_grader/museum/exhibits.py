@@ -1,0 +1,128 @@
+"""From the files of an assignment to whole modules that the grader can judge."""
+
+from __future__ import annotations
+
+import subprocess
+import tempfile
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from ..course import Assignment
+from ..errors import BadInput
+from .label import Label, split_patch
+
+
+@dataclass(frozen=True)
+class Exhibit:
+    """One module. ``files`` holds every owned file by its path below the checkout.
+
+    ``label`` is None for the reference and the alternatives, which are right.
+    """
+
+    assignment: str
+    slug: str
+    files: Mapping[str, bytes]
+    label: Label | None = None
+
+    @property
+    def is_right(self) -> bool:
+        return self.label is None
+
+    @property
+    def name(self) -> str:
+        """ "02/tin-before-tout"."""
+        return f"{self.assignment}/{self.slug}"
+
+
+def reference_of(root: Path, assignment: Assignment) -> Exhibit:
+    """The course's own solution."""
+    files = {path: (root / path).read_bytes() for path in assignment.owned}
+    return Exhibit(assignment.number, "reference", files)
+
+
+def exhibits_of(root: Path, assignment: Assignment) -> list[Exhibit]:
+    """The reference, the alternatives and the mistakes; raises `BadInput` for one that is broken.
+
+    An alternative is `alternatives/slug.c` where the module owns one file, else a folder
+    `alternatives/slug` with files of the owned names; those it lacks are the reference's.
+    """
+    reference = reference_of(root, assignment)
+    alternatives = dict(_alternatives(reference, assignment))
+    mistakes = [
+        _mistake(root, reference, alternatives, assignment, patch)
+        for patch in sorted((assignment.folder / "mistakes").glob("*.patch"))
+    ]
+    return [reference, *alternatives.values(), *mistakes]
+
+
+def _alternatives(reference: Exhibit, assignment: Assignment) -> Iterator[tuple[Path, Exhibit]]:
+    owned = {PurePosixPath(path).name: path for path in assignment.owned}
+    for entry in sorted((assignment.folder / "alternatives").iterdir()):
+        files = dict(reference.files)
+        if entry.is_dir():
+            for file in sorted(entry.iterdir()):
+                if file.name not in owned:
+                    raise BadInput(f"{file}: expected a name of {', '.join(owned)}")
+                files[owned[file.name]] = file.read_bytes()
+        elif len(owned) == 1 and entry.suffix == ".c":
+            files[assignment.owned[0]] = entry.read_bytes()
+        else:
+            raise BadInput(f"{entry}: expected slug.c or slug/NAME.c for {', '.join(owned)}")
+        yield entry, Exhibit(assignment.number, entry.name.removesuffix(".c"), files)
+
+
+def _mistake(
+    root: Path,
+    reference: Exhibit,
+    alternatives: Mapping[Path, Exhibit],
+    assignment: Assignment,
+    patch: Path,
+) -> Exhibit:
+    """The module with the mistake in it."""
+    label, diff = split_patch(patch)
+    unknown = set(label.expect) - {check.name for check in assignment.checks}
+    if unknown:
+        raise BadInput(f"{patch}: Expect names {', '.join(sorted(unknown))}: no such check")
+    target = PurePosixPath(diff.splitlines()[0].removeprefix("--- a/").split("\t")[0])
+    if str(target) in reference.files:
+        base, path = reference, str(target)
+    else:
+        base, path = _base(root, alternatives, assignment, patch, target)
+    files = dict(base.files)
+    files[path] = _patched(patch, diff, target, files[path])
+    return Exhibit(assignment.number, patch.stem, files, label)
+
+
+def _base(
+    root: Path,
+    alternatives: Mapping[Path, Exhibit],
+    assignment: Assignment,
+    patch: Path,
+    target: PurePosixPath,
+) -> tuple[Exhibit, str]:
+    """The alternative that a patch changes, and which of its owned files."""
+    file = root / target
+    for entry, exhibit in alternatives.items():
+        if file == entry:
+            return exhibit, assignment.owned[0]
+        if file.parent == entry:
+            return exhibit, next(p for p in exhibit.files if PurePosixPath(p).name == file.name)
+    raise BadInput(f"{patch}: changes {target}, expected an owned file or an alternative")
+
+
+def _patched(patch: Path, diff: str, target: PurePosixPath, content: bytes) -> bytes:
+    """The file with the diff applied to the letter: it may have moved, but not have changed."""
+    with tempfile.TemporaryDirectory(prefix="museum") as scratch:
+        file = Path(scratch, target)
+        file.parent.mkdir(parents=True)
+        file.write_bytes(content)
+        done = subprocess.run(
+            ["patch", "-p1", "--batch", "--forward", "--fuzz=0", "--no-backup-if-mismatch",
+             "--directory", scratch],
+            input=diff, capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        left = [p for p in Path(scratch).rglob("*") if p.is_file() and p != file]
+        if done.returncode != 0 or left:
+            raise BadInput(f"{patch}: no longer applies to {target}:\n{done.stdout}{done.stderr}")
+        return file.read_bytes()

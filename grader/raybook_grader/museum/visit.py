@@ -1,0 +1,85 @@
+"""Judging exhibits with the grader's own checks, and comparing what fails with what should."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ..checks.program import Workshop
+from ..checks.reference import References
+from ..checks.result import CheckResult, Status
+from ..course import Assignment, Course, ImageCheck, UnitCheck, load_course
+from ..grading.module import ModuleGrader
+from ..grading.result import ModuleResult
+from ..kit import load_kit
+from ..sandbox import Box
+from ..submissions import SubmittedFile
+from .exhibits import Exhibit
+
+_FINE = (Status.PASSED, Status.UNCONFIRMED, Status.NOT_RUN)
+"""An unconfirmed check has passed by its own word: it caught nothing."""
+
+
+@dataclass(frozen=True)
+class Visit:
+    """What the checks said of one exhibit. ``announced`` and ``failed`` are names of checks."""
+
+    exhibit: Exhibit
+    result: ModuleResult
+    announced: frozenset[str]
+    failed: frozenset[str]
+    public: frozenset[str]
+    """Those of ``failed`` that students have, too."""
+
+    @property
+    def as_announced(self) -> bool:
+        return self.announced == self.failed and self.result.verdict != "internal-error"
+
+
+def with_museum(course: Course) -> list[Assignment]:
+    """The graded assignments that have exhibits."""
+    return [a for a in course.assignments if a.is_graded and (a.folder / "mistakes").is_dir()]
+
+
+def without_images(assignment: Assignment) -> Assignment:
+    """The assignment with the checks that take milliseconds, not minutes."""
+    kept = tuple(check for check in assignment.checks if not isinstance(check, ImageCheck))
+    return replace(assignment, checks=kept)
+
+
+@dataclass(frozen=True)
+class Visitor:
+    """What a worker process is made from; calling it gives the function that visits."""
+
+    root: Path
+    kit: Path
+    images: bool
+
+    def __call__(self) -> Callable[[Exhibit], Visit]:
+        course = load_course(self.root)
+        workshop = Workshop(course, load_kit(self.kit), Box())
+        grader = ModuleGrader(workshop, References(workshop))
+        assignments = {
+            a.number: a if self.images else without_images(a) for a in with_museum(course)
+        }
+        return lambda exhibit: visit(grader, assignments[exhibit.assignment], exhibit)
+
+
+def visit(grader: ModuleGrader, assignment: Assignment, exhibit: Exhibit) -> Visit:
+    """Judge one exhibit by the checks of ``assignment``."""
+    files = {path: SubmittedFile(content) for path, content in exhibit.files.items()}
+    result = grader.grade(assignment, files)
+    names = {check.name for check in assignment.checks}
+    announced = exhibit.label.expect if exhibit.label else ()
+    public = {check.name for check in assignment.checks if isinstance(check, UnitCheck)}
+    failed = frozenset(_failing(exhibit, result.checks))
+    return Visit(exhibit, result, frozenset(announced) & names, failed, failed & public)
+
+
+def _failing(exhibit: Exhibit, checks: Iterable[CheckResult]) -> Iterator[str]:
+    for check in checks:
+        # What is right may be slow: it loses the points of the cost, not its place here.
+        slow = exhibit.is_right and check.kind == "cost" and check.status is Status.PARTIAL
+        if check.status not in _FINE and not slow:
+            yield check.name
