@@ -15,6 +15,7 @@ from pathlib import Path, PurePosixPath
 from ..course import Assignment, Course
 from ..kit import Kit
 from ..sandbox import Box, BoxResult, Limits
+from .sanitizers import FLAGS as SANITIZE
 from .words import clean
 
 _INCLUDE = "/kit/include"
@@ -39,11 +40,15 @@ class BuildFailure(Exception):
 
 @dataclass(frozen=True)
 class ModuleObjects:
-    """A compiled module: its objects, and the compiler's warnings in words."""
+    """A compiled module: its source files, its objects, and the compiler's warnings in words."""
 
-    owned: tuple[str, ...]
+    files: Mapping[str, bytes]
     objects: Mapping[str, bytes]
     warnings: str
+
+    @property
+    def owned(self) -> tuple[str, ...]:
+        return tuple(self.files)
 
 
 class Workshop:
@@ -57,13 +62,7 @@ class Workshop:
 
     def compile_module(self, assignment: Assignment, files: Mapping[str, bytes]) -> ModuleObjects:
         """Compile a module's files; raises `BuildFailure`."""
-        objects: dict[str, bytes] = {}
-        warnings: list[str] = []
-        for number, (path, content) in enumerate(sorted(files.items())):
-            name = f"module{number}.o"
-            objects[name], said = self._compile_student(path, content, name)
-            warnings += [said] if said else []
-        return ModuleObjects(tuple(files), objects, "\n".join(warnings))
+        return self._compile(files)
 
     def renderer(self, module: ModuleObjects | None = None) -> bytes:
         """The renderer with a student's module, or all of the reference; raises `BuildFailure`."""
@@ -72,6 +71,12 @@ class Workshop:
     def driver(self, module: ModuleObjects, source: Path) -> bytes:
         """A probe's driver linked with a student's module."""
         return self._link(module, {"driver.o": self._trusted(source)}, with_main=False)
+
+    def sanitized_driver(self, module: ModuleObjects, source: Path) -> bytes:
+        """The same, with the module and the driver under the sanitizers."""
+        watched = self._compile(module.files, SANITIZE)
+        driver = self._trusted(source, SANITIZE)
+        return self._link(watched, {"driver.o": driver}, with_main=False, flags=SANITIZE)
 
     def unit_tests(self, module: ModuleObjects, source: Path) -> bytes:
         """A file of Unity tests linked with a student's module."""
@@ -87,10 +92,21 @@ class Workshop:
     def _reference_objects(self) -> list[str]:
         return self.kit.objects
 
-    def _compile_student(self, path: str, content: bytes, name: str) -> tuple[bytes, str]:
+    def _compile(self, files: Mapping[str, bytes], flags: Sequence[str] = ()) -> ModuleObjects:
+        objects: dict[str, bytes] = {}
+        warnings: list[str] = []
+        for number, (path, content) in enumerate(sorted(files.items())):
+            name = f"module{number}.o"
+            objects[name], said = self._compile_student(path, content, name, flags)
+            warnings += [said] if said else []
+        return ModuleObjects(files, objects, "\n".join(warnings))
+
+    def _compile_student(
+        self, path: str, content: bytes, name: str, flags: Sequence[str]
+    ) -> tuple[bytes, str]:
         beside = f"{_INCLUDE}/{PurePosixPath(path).parent.relative_to('src')}"
         compiled = self.box.run(
-            [self.kit.cc, *self.kit.cflags, "-Wno-error", "-fmax-errors=20",
+            [self.kit.cc, *self.kit.cflags, *flags, "-Wno-error", "-fmax-errors=20",
              "-fdiagnostics-color=never", "-I", _INCLUDE, "-iquote", beside,
              "-c", f"./{path}", "-o", "raw.o"],
             binds={_INCLUDE: self.kit.include},
@@ -116,11 +132,11 @@ class Workshop:
             raise BuildFailure(message, clean(done.stderr))
         return done.files[name]
 
-    def _compile_trusted(self, source: Path) -> bytes:
+    def _compile_trusted(self, source: Path, flags: Sequence[str] = ()) -> bytes:
         """The object of a driver, a test or Unity, which no student wrote."""
         compiled = self.box.run(
-            [self.kit.cc, *self.kit.cflags, "-w", "-Wno-error", "-I", _INCLUDE, "-I", "/unity",
-             "-c", source.name, "-o", "trusted.o"],
+            [self.kit.cc, *self.kit.cflags, *flags, "-w", "-Wno-error",
+             "-I", _INCLUDE, "-I", "/unity", "-c", source.name, "-o", "trusted.o"],
             binds={_INCLUDE: self.kit.include, "/unity": self._unity},
             inputs={source.name: source.read_bytes()},
             collect=["trusted.o"],
@@ -131,11 +147,12 @@ class Workshop:
         return compiled.files["trusted.o"]
 
     def _link(
-        self, module: ModuleObjects | None, extra: Mapping[str, bytes], with_main: bool
-    ) -> bytes:
+        self, module: ModuleObjects | None, extra: Mapping[str, bytes], with_main: bool,
+        flags: Sequence[str] = (),
+    ) -> bytes:  # fmt: skip
         own = module.objects if module else {}
         linked = self.box.run(
-            [self.kit.cc, *self.kit.ldflags, "-o", "program", *own, *extra,
+            [self.kit.cc, *self.kit.ldflags, *flags, "-o", "program", *own, *extra,
              *(f"/kit/{name}" for name in self._linked_with(module, with_main)),
              *self.kit.ldlibs],
             binds={_OBJECTS: self.kit.folder / "objects"},

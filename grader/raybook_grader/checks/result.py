@@ -71,8 +71,12 @@ class CheckResult:
         )
 
 
+JUDGED = ("probe", "statistics")
+"""The kinds whose answers are judged outside of the box, so that none can be forged."""
+
+
 def kind_of(check: Check) -> str:
-    """The word for a check's kind in the rubric: "build", "unit", "probe" or "image"."""
+    """The word for a check's kind in the rubric: "build", "unit", "probe" and so on."""
     return type(check).__name__.removesuffix("Check").lower()
 
 

@@ -34,6 +34,16 @@ class Subject:
     module: ModuleObjects
     renderer: bytes
 
+    @property
+    def limits(self) -> Limits:
+        """What the assignment allows one run."""
+        limits = self.assignment.limits
+        return Limits(
+            wall_seconds=_PATIENCE * limits.wall_seconds,
+            cpu_seconds=limits.wall_seconds,
+            memory_bytes=limits.memory_mib << 20,
+        )
+
     def run(
         self,
         program: bytes,
@@ -42,24 +52,22 @@ class Subject:
         inputs: Mapping[str, bytes] | None = None,
         binds: Mapping[str, Path] | None = None,
         collect: Sequence[str] = (),
+        limits: Limits | None = None,
+        env: Mapping[str, str] | None = None,
     ) -> BoxResult:
-        """Run a program that holds the student's code, in a fresh box, within the limits.
+        """Run a program that holds the student's code, in a fresh box, within `self.limits`.
 
         The result is an answer, if not a right one; raises `Stopped` if there is none.
         """
-        limits = self.assignment.limits
-        memory = limits.memory_mib << 20
+        limits = limits or self.limits
         result = self.workshop.box.run(
             ["/program", *arguments],
             binds=binds or {},
             inputs={"/program": program, **(inputs or {})},
             collect=collect,
-            limits=Limits(
-                wall_seconds=_PATIENCE * limits.wall_seconds,
-                cpu_seconds=limits.wall_seconds,
-                memory_bytes=memory,
-            ),
+            limits=limits,
+            env=env,
         )
-        if problem := trouble(result, memory):
+        if problem := trouble(result, limits.memory_bytes):
             raise Stopped(problem, result.stdout + result.stderr)
         return result

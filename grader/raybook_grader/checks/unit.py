@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ..course import UnitCheck
-from .result import CheckResult, Status, conclude
+from .result import JUDGED, CheckResult, Status, conclude
 from .subject import Subject
 from .words import clean
 
@@ -46,7 +46,7 @@ def check_unit(check: UnitCheck, subject: Subject) -> CheckResult:
 
 def confirm(results: Sequence[CheckResult]) -> list[CheckResult]:
     """Withhold the points of passed unit checks unless every probe has passed."""
-    borne_out = all(r.status is Status.PASSED for r in results if r.kind == "probe")
+    borne_out = all(r.status is Status.PASSED for r in results if r.kind in JUDGED)
     return [_withhold(r) if r.kind == "unit" and not borne_out else r for r in results]
 
 

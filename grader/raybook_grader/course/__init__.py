@@ -9,6 +9,8 @@ from .model import (
     ImageCheck,
     Limits,
     ProbeCheck,
+    RobustCheck,
+    StatisticsCheck,
     UnitCheck,
 )
 
@@ -20,6 +22,8 @@ __all__ = [
     "ImageCheck",
     "Limits",
     "ProbeCheck",
+    "RobustCheck",
+    "StatisticsCheck",
     "UnitCheck",
     "load_course",
 ]

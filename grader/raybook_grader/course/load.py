@@ -16,11 +16,15 @@ from .model import (
     ImageCheck,
     Limits,
     ProbeCheck,
+    RobustCheck,
+    StatisticsCheck,
     UnitCheck,
 )
 from .table import Table
 
 NAME = "Raybook"
+
+_WithDriver = ProbeCheck | RobustCheck
 
 
 def load_course(root: Path) -> Course:
@@ -93,7 +97,7 @@ def _verify(root: Path, table: Table, assignment: Assignment) -> None:
     kinds = [type(check) for check in assignment.checks]
     if kinds.count(BuildCheck) != 1:
         raise table.fault("check", f"{kinds.count(BuildCheck)} of kind 'build'", "exactly one")
-    if UnitCheck in kinds and ProbeCheck not in kinds:
+    if UnitCheck in kinds and not any(issubclass(kind, ProbeCheck) for kind in kinds):
         raise table.fault("check", "of kind 'unit' alone", "a 'probe' beside it that confirms it")
 
 
@@ -119,16 +123,21 @@ def _unit(root: Path, folder: Path, table: Table) -> Check:
     )
 
 
-def _probe(root: Path, folder: Path, table: Table) -> Check:
-    return ProbeCheck(
-        name=table.text("name"),
-        points=table.number("points"),
-        driver=table.path("driver", folder),
-        oracle=table.path("oracle", folder),
-        group=table.text("group"),
-        seed=table.whole("seed", 0),
-        hidden=table.flag("hidden"),
-    )
+def _probe(kind: type[_WithDriver]) -> Callable[[Path, Path, Table], Check]:
+    """The reader of a kind of check that runs a driver on an oracle's cases."""
+
+    def read(root: Path, folder: Path, table: Table) -> Check:
+        return kind(
+            name=table.text("name"),
+            points=table.number("points"),
+            driver=table.path("driver", folder),
+            oracle=table.path("oracle", folder),
+            group=table.text("group"),
+            seed=table.whole("seed", 0),
+            hidden=table.flag("hidden"),
+        )
+
+    return read
 
 
 def _image(root: Path, folder: Path, table: Table) -> Check:
@@ -154,6 +163,8 @@ def _resolution(table: Table) -> tuple[int, int]:
 _KINDS: dict[str, Callable[[Path, Path, Table], Check]] = {
     "build": _build,
     "unit": _unit,
-    "probe": _probe,
+    "probe": _probe(ProbeCheck),
+    "statistics": _probe(StatisticsCheck),
+    "robust": _probe(RobustCheck),
     "image": _image,
 }

@@ -47,6 +47,27 @@ class ProbeCheck:
 
 
 @dataclass(frozen=True)
+class StatisticsCheck(ProbeCheck):
+    """A probe whose oracle judges by statistics: many random results together, none alone."""
+
+
+@dataclass(frozen=True)
+class RobustCheck:
+    """A probe's driver and cases with the module under the sanitizers; no answer is judged.
+
+    The group may hold what the probes leave out, where any answer is right but no crash is.
+    """
+
+    name: str
+    points: float
+    driver: str
+    oracle: str
+    group: str
+    seed: int
+    hidden: bool = False
+
+
+@dataclass(frozen=True)
 class ImageCheck:
     """Renderings of a scene, ``seeds`` of them at ``spp`` samples a pixel.
 
@@ -62,7 +83,7 @@ class ImageCheck:
     hidden: bool = False
 
 
-Check = BuildCheck | UnitCheck | ProbeCheck | ImageCheck
+Check = BuildCheck | UnitCheck | ProbeCheck | RobustCheck | ImageCheck
 
 
 @dataclass(frozen=True)

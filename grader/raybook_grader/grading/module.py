@@ -12,11 +12,13 @@ from ..checks.probe import check_probe
 from ..checks.program import BuildFailure, Workshop
 from ..checks.reference import References
 from ..checks.result import CheckResult, Status, conclude
+from ..checks.robust import check_robust
+from ..checks.robust import confirm as confirm_robust
 from ..checks.stub import is_stub, stub_text
 from ..checks.subject import Stopped, Subject
 from ..checks.unit import check_unit, confirm
 from ..checks.words import clean
-from ..course import Assignment, BuildCheck, Check, ImageCheck, ProbeCheck, UnitCheck
+from ..course import Assignment, BuildCheck, Check, ImageCheck, ProbeCheck, RobustCheck, UnitCheck
 from ..submissions import SubmittedFile
 from .result import ModuleResult, from_checks, internal_error, missing
 
@@ -76,7 +78,7 @@ class ModuleGrader:
             except Exception as fault:
                 results.append(conclude(check, Status.INTERNAL_ERROR, _told(fault)))
                 faults.append(traceback.format_exc())
-        return from_checks(confirm(results), "\n".join(faults))
+        return from_checks(confirm_robust(confirm(results)), "\n".join(faults))
 
     def _run(self, check: Check, subject: Subject) -> CheckResult:
         match check:
@@ -86,6 +88,8 @@ class ModuleGrader:
                 return check_unit(check, subject)
             case ProbeCheck():
                 return check_probe(check, subject)
+            case RobustCheck():
+                return check_robust(check, subject)
             case ImageCheck():
                 return check_image(check, subject, self.references)
 

@@ -76,7 +76,7 @@ def test_without_checks_it_is_not_graded_yet(tmp_path: Path) -> None:
         ('"128x64"', '"128"', "like 128x128"),
         ('"scenes/a.json"', '"scenes/b.json"', "a file that exists"),
         ('"scenes/a.json"', '"../scenes/a.json"', "a plain path"),
-        ('kind = "image"', 'kind = "images"', "expected one of build, unit, probe, image"),
+        ('kind = "image"', 'kind = "images"', "expected one of build, unit, probe, statistics"),
         ('kind = "build"', 'kind = "unit"\ntests = "test.c"', "0 of kind 'build'"),
         ('name = "picture"', 'name = "compiles"', "two are called 'compiles'"),
         ('["src/shapes/triangle.c"]', "[]", "owned: is empty"),
