@@ -27,6 +27,10 @@ bool bounce(const struct tracer *t, const struct vertex *v, ray *r,
                          way))
         return false;
     path_log_scatter(t->log, way);
+    if (way->specular)
+        counters_mine.specular_rays++;
+    else
+        counters_mine.bounce_rays++;
     continue_differential(v, r, way, d);
     *r = surface_ray(&v->surface, way->incoming, INFINITY);
     return true;

@@ -101,10 +101,6 @@ static bool scatter_on(struct path *p, const struct vertex *v)
     p->specular = way.specular;
     p->scattered++;
     p->rough += way.specular ? 0 : 1;
-    if (way.specular)
-        counters_mine.specular_rays++;
-    else
-        counters_mine.bounce_rays++;
     return !rgb_is_black(p->throughput) && survives(p);
 }
 
@@ -113,7 +109,6 @@ static rgb walk(struct path *p)
     for (;;) {
         struct vertex v;
         if (!tracer_hit(p->t, &p->r, &p->d, &v)) {
-            path_log_miss(p->t->log);
             add_environment(p);
             break;
         }

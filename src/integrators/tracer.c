@@ -5,8 +5,10 @@ bool tracer_hit(const struct tracer *t, const ray *r,
                 const struct ray_differential *d, struct vertex *out)
 {
     struct scene_hit hit;
-    if (!scene_nearest(t->scene, r, &hit))
+    if (!scene_nearest(t->scene, r, &hit)) {
+        path_log_miss(t->log);
         return false;
+    }
     out->surface = scene_surface(t->scene, r, &hit, &out->object);
     surface_footprint(&out->surface, r, d);
     out->outgoing = vec3_negate(vec3_normalize(r->direction));

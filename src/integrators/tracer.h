@@ -15,15 +15,16 @@ struct tracer {
     struct path_log *log;
 };
 
-/* Where a ray met the scene. outgoing is the unit vector back along it. */
+/* Where a ray met the scene. */
 struct vertex {
     struct surface surface;
-    const struct object *object;
-    vec3 outgoing;
-    float t;
+    const struct object *object; /* of the scene; its material may be NULL */
+    vec3 outgoing;               /* the unit vector back along the ray */
+    float t;                     /* of the ray */
 };
 
-/* The nearest hit as a vertex, with the footprint of d; false on a miss. */
+/* The nearest hit as a vertex, with the footprint of d. false on a miss: *out
+ * is then as it was. */
 bool tracer_hit(const struct tracer *t, const ray *r,
                 const struct ray_differential *d, struct vertex *out);
 
