@@ -81,8 +81,13 @@ objects: $(objects)
 	    --cc '$(CC)' --cflags='$(filter-out -Isrc -Werror,$(cflags))' \
 	    --ldflags='$(ldflags)' --ldlibs='$(ldlibs)'
 
+# The targets below take minutes and are no part of `make test`.
+variance: ## the variance of each way of sampling against a plainer one: build/variance/variance.md
+	@.setup/setup.sh
+	@$(python) grader/tests/renderer/variance.py $(ARGS)
+
 clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
-.PHONY: help setup build render test format check-format check-python handout grade museum kit objects \
-    clean
+.PHONY: help setup build render test format check-format check-python handout grade \
+    museum kit objects variance clean
