@@ -86,8 +86,13 @@ variance: ## the variance of each way of sampling against a plainer one: build/v
 	@.setup/setup.sh
 	@$(python) grader/tests/renderer/variance.py $(ARGS)
 
+mitsuba: ## [ARGS="--spp 4096"] compares our pictures with Mitsuba 3's, in a venv of its own
+	@.setup/setup.sh
+	@$(MAKE) -s $(program)
+	@grader/tests/mitsuba/compare.sh --raybook "$(program)" $(ARGS)
+
 clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
 .PHONY: help setup build render test format check-format check-python handout grade \
-    museum kit objects variance clean
+    museum kit objects variance mitsuba clean

@@ -1,8 +1,9 @@
 """Compare the renderer with Mitsuba 3 on the scenes in scenes/test/compare.
 
-    python grader/tests/mitsuba/compare.py --raybook build/raybook [--spp 1024] [scene.json ...]
+    make mitsuba [ARGS="--spp 4096"]
+    grader/tests/mitsuba/compare.sh [--raybook build/raybook] [--spp 1024] [scene.json ...]
 
-A test of record: it needs `pip install mitsuba` next to the grader's packages, and takes minutes.
+A test of record, which takes minutes; compare.sh makes the environment that it needs.
 Both programs render every scene from many seeds; the grader's own judge then says whether ours
 converges to what Mitsuba converges to. A scene fails when a channel's mean differs by more than
 0.5 %, when the judge's verdict (part A) is not "pass", or when single pixels differ by more than
