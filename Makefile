@@ -91,8 +91,12 @@ mitsuba: ## [ARGS="--spp 4096"] compares our pictures with Mitsuba 3's, in a ven
 	@$(MAKE) -s $(program)
 	@grader/tests/mitsuba/compare.sh --raybook "$(program)" $(ARGS)
 
+fuzz: ## [SECONDS=600] searches for files that crash the readers of scenes, meshes and images
+	@.setup/setup.sh
+	@$(python) grader/tests/fuzz/run.py --seconds $(or $(SECONDS),600) $(ARGS)
+
 clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
 .PHONY: help setup build render test format check-format check-python handout grade \
-    museum kit objects variance mitsuba clean
+    museum kit objects variance mitsuba fuzz clean
