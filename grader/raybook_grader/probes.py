@@ -50,3 +50,19 @@ class Oracle(Protocol):
     def judge(self, cases: Cases, output: bytes) -> list[Failure]:
         """Every wrong result. Output of a wrong length is a failure too, never an exception."""
         ...
+
+
+class CostOracle(Oracle, Protocol):
+    """An oracle that also counts the work behind results that it found right.
+
+    What is counted must not rest on the word of the program that did the work: count what the
+    results show (a tree can be walked here), or let the driver count calls of its own functions and
+    let ``judge`` refuse a count below what any program needs.
+    """
+
+    COUNTED: str
+    """What `cost` counts, in the plural: "boxes and triangles tested a ray"."""
+
+    def cost(self, cases: Cases, output: bytes) -> float:
+        """The work, above 0; asked only for output in which ``judge`` finds no failure."""
+        ...

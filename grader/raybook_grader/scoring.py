@@ -1,9 +1,9 @@
 """From the checks of a module to its verdict and its points.
 
 Points. A check's points are its own affair: a build, a unit test or a probe earns all or
-nothing, an image a share by its perceptual score. A probe with half of its cases right earns
-nothing: a stub that never reports a hit is right in most of them too. The partial credit of a
-module lies in the number of its checks.
+nothing, an image a share by its perceptual score, a cost a share by its ratio to the
+reference's. A probe with half of its cases right earns nothing: a stub that never reports a hit is
+right in most of them too. The partial credit of a module lies in the number of its checks.
 
 Verdict, the first that applies:
 
@@ -12,7 +12,7 @@ Verdict, the first that applies:
 3. ``forbidden``, ``crash``, ``memory``, ``timeout``: some run of the program ended so. What
    the program did worst names the module, for it is what its author must mend first.
 4. ``fail``: some check found a wrong result.
-5. ``partial``: no result is wrong, but points were lost (warnings, a noisier picture).
+5. ``partial``: no result is wrong, but points were lost (warnings, a noisier picture, more work).
 6. ``pass``: every check passed with all of its points.
 """
 

@@ -68,8 +68,8 @@ class Workshop:
         """The renderer with a student's module, or all of the reference; raises `BuildFailure`."""
         return self._link(module, {}, with_main=True)
 
-    def driver(self, module: ModuleObjects, source: Path) -> bytes:
-        """A probe's driver linked with a student's module."""
+    def driver(self, module: ModuleObjects | None, source: Path) -> bytes:
+        """A probe's driver linked with a student's module, or all of the reference."""
         return self._link(module, {"driver.o": self._trusted(source)}, with_main=False)
 
     def sanitized_driver(self, module: ModuleObjects, source: Path) -> bytes:

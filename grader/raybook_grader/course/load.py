@@ -12,6 +12,7 @@ from .model import (
     Assignment,
     BuildCheck,
     Check,
+    CostCheck,
     Course,
     ImageCheck,
     Limits,
@@ -140,6 +141,14 @@ def _probe(kind: type[_WithDriver]) -> Callable[[Path, Path, Table], Check]:
     return read
 
 
+def _cost(root: Path, folder: Path, table: Table) -> Check:
+    full, none = table.number("full"), table.number("none")
+    if not 1 <= full < none:
+        raise table.fault("full", f"is {full:g}, with none = {none:g}", "1 <= full < none")
+    probe = _probe(ProbeCheck)(root, folder, table)
+    return CostCheck(**vars(probe), full=full, none=none)
+
+
 def _image(root: Path, folder: Path, table: Table) -> Check:
     return ImageCheck(
         name=table.text("name"),
@@ -166,5 +175,6 @@ _KINDS: dict[str, Callable[[Path, Path, Table], Check]] = {
     "probe": _probe(ProbeCheck),
     "statistics": _probe(StatisticsCheck),
     "robust": _probe(RobustCheck),
+    "cost": _cost,
     "image": _image,
 }

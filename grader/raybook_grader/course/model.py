@@ -68,6 +68,25 @@ class RobustCheck:
 
 
 @dataclass(frozen=True)
+class CostCheck:
+    """How much work one group of cases takes, as a ratio to what the reference needs for it.
+
+    Up to a ratio of ``full`` all points are given, from ``none`` on not one; between the two they
+    fall linearly in the logarithm of the ratio. The rest is as in a `ProbeCheck`.
+    """
+
+    name: str
+    points: float
+    driver: str
+    oracle: str
+    group: str
+    seed: int
+    full: float
+    none: float
+    hidden: bool = False
+
+
+@dataclass(frozen=True)
 class ImageCheck:
     """Renderings of a scene, ``seeds`` of them at ``spp`` samples a pixel.
 
@@ -83,7 +102,7 @@ class ImageCheck:
     hidden: bool = False
 
 
-Check = BuildCheck | UnitCheck | ProbeCheck | RobustCheck | ImageCheck
+Check = BuildCheck | UnitCheck | ProbeCheck | RobustCheck | CostCheck | ImageCheck
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..checks.build import check_build, failed_build
+from ..checks.cost import check_cost
 from ..checks.image import check_image
 from ..checks.probe import check_probe
 from ..checks.program import BuildFailure, Workshop
@@ -18,7 +19,16 @@ from ..checks.stub import is_stub, stub_text
 from ..checks.subject import Stopped, Subject
 from ..checks.unit import check_unit, confirm
 from ..checks.words import clean
-from ..course import Assignment, BuildCheck, Check, ImageCheck, ProbeCheck, RobustCheck, UnitCheck
+from ..course import (
+    Assignment,
+    BuildCheck,
+    Check,
+    CostCheck,
+    ImageCheck,
+    ProbeCheck,
+    RobustCheck,
+    UnitCheck,
+)
 from ..submissions import SubmittedFile
 from .result import ModuleResult, from_checks, internal_error, missing
 
@@ -90,6 +100,8 @@ class ModuleGrader:
                 return check_probe(check, subject)
             case RobustCheck():
                 return check_robust(check, subject)
+            case CostCheck():
+                return check_cost(check, subject)
             case ImageCheck():
                 return check_image(check, subject, self.references)
 
