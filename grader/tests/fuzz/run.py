@@ -26,7 +26,7 @@ from fuzz_build import BUILD, HARNESSES, HERE, build_fuzzer
 from fuzz_seeds import dictionary, furniture, seeds
 
 CORPUS = HERE / "corpus"
-LIMITS = ("-timeout=20", "-rss_limit_mb=2048", "-max_len=8192")
+LIMITS = ("-timeout=20", "-report_slow_units=20", "-rss_limit_mb=2048", "-max_len=8192")
 MEMORY = "/dev/shm"
 """Where the harnesses write the file that is to be read, if it is there."""
 
