@@ -19,11 +19,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from raybook_grader.cases import numbers, point, read_table, wrong_length
 from raybook_grader.probes import Cases, Failure
-from triangle_words import numbers, point, read_table, wrong_length
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -34,6 +35,7 @@ UNIT = 2.0**-24
 ROUNDINGS = 10
 PROMISED = 1e-4
 LARGEST = float(np.finfo(np.float32).max)
+EDGES = Path(__file__).with_name("edges_differentials.txt")
 RANDOM_CASES = 1500
 
 
@@ -175,7 +177,7 @@ def _hand_picked() -> tuple[NDArray[np.float32], list[str]]:
     """Each line of edges_differentials.txt three times, with its axes moved on."""
     rows, label = [], []
     for turn in range(3):
-        for _, kind, corners, uvs, name in read_table("edges_differentials.txt"):
+        for _, kind, corners, uvs, name in read_table(EDGES):
             turned = [numbers(q, turn) for q in corners.split(",")]
             rows.append(np.concatenate([*turned, *(numbers(q) for q in uvs.split(","))]))
             label.append(f"{kind}: {name}")

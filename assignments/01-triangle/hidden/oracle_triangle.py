@@ -18,16 +18,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from random_triangle import random_cases
+from raybook_grader.cases import number, numbers, point, read_table, wrong_length
 from raybook_grader.probes import Cases, Failure
 from triangle_bounds import Array, Mask, solve, verdict
-from triangle_words import number, numbers, point, read_table, wrong_length
 
 WORDS_IN, WORDS_OUT = 17, 5
 WROTE_ON_MISS, CHANGED_RAY = 1, 2
+EDGES = Path(__file__).with_name("edges_triangle.txt")
 RANDOM_CASES = 6000
 
 
@@ -265,7 +267,7 @@ def _hand_picked() -> tuple[NDArray[np.float32], list[str]]:
     """Each line of edges_triangle.txt three times: as it stands, and with its axes moved on."""
     rows, label = [], []
     for turn in range(3):
-        for _, kind, corners, origin, direction, ends, name in read_table("edges_triangle.txt"):
+        for _, kind, corners, origin, direction, ends, name in read_table(EDGES):
             points = [*corners.split(","), origin, direction]
             rows.append(np.concatenate([*(numbers(q, turn) for q in points), numbers(ends)]))
             label.append(f"{kind}: {name}")

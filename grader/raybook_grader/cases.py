@@ -1,4 +1,4 @@
-"""What both oracles of assignment 01 share: tables of cases, and numbers in words."""
+"""What the oracles of probes share: tables of cases, numbers in words, the output's length."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from raybook_grader.probes import Failure
+
+from .probes import Failure
 
 
 def number(x: float) -> str:
-    """The shortest text that gives this float again."""
+    """The shortest text that gives this single-precision number again."""
     return str(np.float32(x)).removesuffix(".0")
 
 
@@ -19,11 +20,11 @@ def point(a: NDArray[np.float64]) -> str:
     return "(" + ", ".join(number(x) for x in a) + ")"
 
 
-def read_table(name: str) -> list[list[str]]:
-    """The rows of a table of hand-picked cases that stands beside this file."""
-    lines = Path(__file__).with_name(name).read_text(encoding="utf-8").splitlines()
+def read_table(file: Path) -> list[list[str]]:
+    """The rows of a table of hand-picked cases: cells between "|", "#" begins a comment line."""
+    lines = file.read_text(encoding="utf-8").splitlines()
     rows = [line.split("|") for line in lines if line.strip() and not line.startswith("#")]
-    return [[field.strip() for field in row] for row in rows]
+    return [[cell.strip() for cell in row] for row in rows]
 
 
 def numbers(text: str, turn: int = 0) -> NDArray[np.float64]:
