@@ -25,10 +25,20 @@
  *   (a miss). inverse_direction is infinite there, and 0 * infinity is NaN:
  *   mind what a comparison with NaN does.
  * - The empty box (aabb_empty) is never hit.
+ * - direction need not have length one, and no size of box is special.
  *
- * A hit by less than the last few digits may be judged either way, but a box
- * must never be missed whose inside the ray crosses: a BVH would lose
- * triangles.
+ * Accuracy asked for: t_enter and t_exit within 1e-5 of themselves. Where the
+ * ray misses or touches the box, or an end of the range, by less than that,
+ * either answer is right; where rounding plays no part, as for small whole
+ * numbers, touching counts. One thing is sure: a box whose inside the ray
+ * crosses, or a flat one whose rectangle it crosses, is never missed, however
+ * short the way through it. A BVH would lose triangles.
+ *
+ * Not asked: what comes of a NaN, of a direction whose components are all
+ * zero, of corners or origins that are infinite, of other boxes with
+ * lower > upper. Any answer will do then, but a crash will not.
+ *
+ * Called many million times: no allocation, no printing, no state.
  *
  * Source: T. Kay and J. Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986;
  * T. Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013, for the rounding. */

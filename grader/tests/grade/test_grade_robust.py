@@ -128,8 +128,7 @@ def test_words_of_other_code_and_addresses_are_left_out() -> None:
     found = finding(said, ["src/accel/bvh.c"])
     assert found is not None
     assert found.message == (
-        "src/accel/bvh.c, line 77: member access within misaligned address ... "
-        "for type 'struct a'"
+        "src/accel/bvh.c, line 77: member access within misaligned address ... for type 'struct a'"
     )
     elsewhere = finding(said, ["src/accel/aabb.c"])
     assert elsewhere is not None and elsewhere.path == ""

@@ -1,0 +1,122 @@
+"""A workbench for the tests of one assignment: its module against its probes, without the box.
+
+Any compiler and flags will do, which the grader itself does not offer: it has the kit's only. The
+kit's objects give the rest of the renderer.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from raybook_grader.checks.oracles import cases_of, load_oracle
+from raybook_grader.course import Assignment, ProbeCheck, UnitCheck, load_course
+from raybook_grader.kit import load_kit
+from raybook_grader.probes import Cases, Failure
+
+ROOT = Path(__file__).resolve().parents[3]
+UNITY = Path(os.environ.get("UNITY_ROOT") or ROOT / "build" / "unity")
+WARNINGS = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+CODE = ["-ffp-contract=off", "-fno-math-errno", "-fopenmp"]
+COMPILERS = [("gcc", "-O3"), ("gcc", "-O0"), ("clang", "-O2")]
+
+
+def run(*command: str) -> None:
+    """Run a command that must succeed."""
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, f"{' '.join(command)}\n{done.stdout}{done.stderr}"
+
+
+@dataclass
+class Bench:
+    """Builds modules of one owned file with drivers and tests; keeps what it compiled."""
+
+    folder: Path
+    assignment: Assignment
+    kept: dict[tuple[Path, tuple[str, ...]], Path] = field(default_factory=dict)
+
+    @property
+    def probes(self) -> dict[str, ProbeCheck]:
+        """The probes by name, in the rubric's order."""
+        return {c.name: c for c in self.assignment.checks if isinstance(c, ProbeCheck)}
+
+    @property
+    def unit(self) -> UnitCheck:
+        return next(c for c in self.assignment.checks if isinstance(c, UnitCheck))
+
+    @property
+    def module(self) -> Path:
+        """The reference's module."""
+        return ROOT / self.assignment.owned[0]
+
+    def object(self, source: Path, cc: str, flags: Sequence[str]) -> Path:
+        key = (source, (cc, *flags))
+        if key not in self.kept:
+            out = self.folder / f"{len(self.kept)}.o"
+            beside = (ROOT / self.assignment.owned[0]).parent
+            include = [f"-I{ROOT / 'src'}", "-iquote", str(beside), "-isystem", str(UNITY)]
+            run(cc, *WARNINGS, *CODE, *flags, *include, "-c", str(source), "-o", str(out))
+            self.kept[key] = out
+        return self.kept[key]
+
+    def program(self, main: Path, module: Path, cc: str, flags: Sequence[str]) -> Path:
+        """The driver or the tests with a module, and the reference for everything else."""
+        kit = load_kit(ROOT / "build" / "kit")
+        shared = [flag for flag in flags if not flag.startswith("-DTODO")]
+        objects = [self.object(main, cc, shared), self.object(module, cc, flags)]
+        if main.name.startswith("test_"):
+            objects.append(self.object(UNITY / "unity.c", cc, shared))
+        left_out = {"objects/main.o", kit.modules[self.assignment.owned[0]].object}
+        rest = [str(kit.folder / name) for name in kit.objects if name not in left_out]
+        out = self.folder / f"{objects[1].stem}-{main.stem}"
+        run("gcc", *CODE, *shared, *map(str, objects), *rest, *kit.ldlibs, "-o", str(out))
+        return out
+
+    def cases(self, check: str, seed: int | None = None) -> Cases:
+        """Made once for each seed."""
+        probe = self.probes[check]
+        oracle = self.assignment.folder / probe.oracle
+        return cases_of(oracle, probe.group, probe.seed if seed is None else seed)
+
+    def judge(self, check: str, cases: Cases, output: bytes) -> list[Failure]:
+        return load_oracle(self.assignment.folder / self.probes[check].oracle).judge(cases, output)
+
+    def failures(
+        self, module: Path, check: str, cc: str = "gcc", flags: Sequence[str] = ("-O2",),
+        seed: int | None = None,
+    ) -> list[Failure]:  # fmt: skip
+        """What the oracle of a probe says of the module."""
+        probe, cases = self.probes[check], self.cases(check, seed)
+        driver = self.program(self.assignment.folder / probe.driver, module, cc, flags)
+        given, results = self.folder / "cases.bin", self.folder / "results.bin"
+        given.write_bytes(cases.payload)
+        run(str(driver), str(given), str(results), probe.group)
+        return self.judge(check, cases, results.read_bytes())
+
+    def failing(self, module: Path, cc: str = "gcc", flags: Sequence[str] = ("-O2",)) -> set[str]:
+        """The names of the checks that the module fails: unit tests and probes."""
+        failing = {check for check in self.probes if self.failures(module, check, cc, flags)}
+        tests = self.program(self.assignment.folder / self.unit.tests, module, cc, flags)
+        if subprocess.run([tests], capture_output=True).returncode != 0:
+            failing.add(self.unit.name)
+        return failing
+
+    def mutant(self, old: str, new: str, folder: Path) -> Path:
+        """The reference's module with one text replaced."""
+        text = self.module.read_text()
+        assert old in text, f"{self.module.name} no longer says {old!r}"
+        module = folder / self.module.name
+        module.write_text(text.replace(old, new))
+        return module
+
+
+def assignment_of(number: str) -> Assignment:
+    return load_course(ROOT).assignment(number)
+
+
+def right_modules(assignment: Assignment) -> list[Path]:
+    """The reference and the alternatives, which are whole files."""
+    return [ROOT / assignment.owned[0], *sorted((assignment.folder / "alternatives").glob("*.c"))]
