@@ -1,4 +1,4 @@
-"""The oracle of ``triangle_intersect``: groups "edges" and "random".
+"""The oracle of ``triangle_intersect``: groups "edges", "random", "degenerate", "hostile".
 
 *Independent.* It does not solve the 3x3 system as the module does. A weight is the ratio of two
 signed volumes, those of the tetrahedra that the ray's direction spans with an edge of the
@@ -11,7 +11,7 @@ in exact rational arithmetic, so no failure is reported that exact arithmetic di
 answer is right; triangle_bounds.py derives it. The numbers of the group "edges" are such that
 every method is exact, so there hit or miss is not a matter of tolerance.
 
-probe_triangle.c says how the files are laid out.
+No case of "hostile" is judged. probe_triangle.c says how the files are laid out.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from random_triangle import random_cases
+from random_triangle import degenerate_cases, hostile_cases, random_cases
 from raybook_grader.cases import number, numbers, point, read_table, wrong_length
 from raybook_grader.probes import Cases, Failure
 from triangle_bounds import Array, Mask, solve, verdict
@@ -30,7 +30,7 @@ from triangle_bounds import Array, Mask, solve, verdict
 WORDS_IN, WORDS_OUT = 17, 5
 WROTE_ON_MISS, CHANGED_RAY = 1, 2
 EDGES = Path(__file__).with_name("edges_triangle.txt")
-RANDOM_CASES = 6000
+RANDOM_CASES, DEGENERATE_CASES, HOSTILE_CASES = 6000, 2000, 4000
 
 
 @dataclass(frozen=True)
@@ -60,15 +60,21 @@ class Context:
 
 
 def make_cases(group: str, seed: int) -> Cases:
-    """ "edges": hand-picked, whatever the seed. "random": 6000, the same for the same seed."""
+    """ "edges": hand-picked, whatever the seed. The others: the same for the same seed."""
     if group == "edges":
         words, label = _hand_picked()
         strict = True
     elif group == "random":
         words, label = random_cases(np.random.default_rng(seed), RANDOM_CASES)
         strict = False
+    elif group == "degenerate":
+        words, label = degenerate_cases(np.random.default_rng(seed), DEGENERATE_CASES)
+        strict = False
+    elif group == "hostile":
+        words, label = hostile_cases(np.random.default_rng(seed), HOSTILE_CASES)
+        strict = False
     else:
-        raise ValueError(f"group {group!r}, expected 'edges' or 'random'")
+        raise ValueError(f"group {group!r}: there is none of that name")
     return Cases(words.tobytes(), len(label), _context(words, label, strict))
 
 

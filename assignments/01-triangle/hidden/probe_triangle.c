@@ -10,6 +10,8 @@
  *   in   15 f   corners p0 p1 p2 (x y z each), uv0 uv1 uv2 (u v each)
  *   out   8     u returned true (1) or false (0), 3 f dp_du, 3 f dp_dv,
  *               u flags
+ * GROUP "hostile": the layout of "differentials" is laid over that of any
+ *   other, and both functions are called; what they say is not told.
  * Any other GROUP:
  *   in   17 f   corners p0 p1 p2, ray origin, direction, t_min, t_max
  *   out   5     u returned true (1) or false (0), f t, f b1, f b2, u flags
@@ -95,6 +97,12 @@ static void run_differentials(const float *in, uint32_t *out)
     }
 }
 
+static void run_both(const float *in, uint32_t *out)
+{
+    run_differentials(in, out);
+    run_intersect(in, out);
+}
+
 /* The next record of `words` words; false at the end of the file. */
 static bool read_record(FILE *file, const char *name, float *record,
                         size_t words)
@@ -141,7 +149,9 @@ int main(int argc, char **argv)
         return 2;
     }
     bool differentials = strcmp(argv[3], "differentials") == 0;
-    run_case *run = differentials ? run_differentials : run_intersect;
+    run_case *run = differentials                     ? run_differentials
+                    : strcmp(argv[3], "hostile") == 0 ? run_both
+                                                      : run_intersect;
     size_t words_in = differentials ? DIFFERENTIALS_IN : INTERSECT_IN;
     size_t words_out = differentials ? DIFFERENTIALS_OUT : INTERSECT_OUT;
 

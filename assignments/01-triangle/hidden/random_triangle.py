@@ -1,4 +1,4 @@
-"""The random cases of oracle_triangle.py.
+"""The random cases of oracle_triangle.py: groups "random", "degenerate" and "hostile".
 
 Triangles of every size from 1e-4 to 1e4, up to sixteen sizes from the world's origin, seen from a
 tenth of their size to a hundred sizes away; needles, grazing and axis-parallel rays,
@@ -15,23 +15,39 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 KINDS = {  # share of the random cases, in per cent
-    "inside": 33,
-    "near an edge": 22,
-    "outside": 14,
+    "inside": 36,
+    "near an edge": 24,
+    "outside": 15,
     "behind": 8,
-    "before t_min": 7,
+    "before t_min": 8,
     "after t_max": 9,
-    "equal corners": 4,
-    "corner not finite": 3,
+}
+
+BROKEN = {  # share of the degenerate cases, in per cent
+    "equal corners": 70,
+    "a point": 10,
+    "corner not finite": 20,
 }
 
 
 def random_cases(rng: np.random.Generator, n: int) -> tuple[NDArray[np.float32], list[str]]:
     """n input records of probe_triangle.c, and a label for each: kind, size, grazing."""
-    kind = rng.choice(list(KINDS), n, p=np.array(list(KINDS.values())) / 100)
+    return _cases(rng, rng.choice(list(KINDS), n, p=np.array(list(KINDS.values())) / 100))
+
+
+def degenerate_cases(rng: np.random.Generator, n: int) -> tuple[NDArray[np.float32], list[str]]:
+    """The same with triangles that have no area in any arithmetic; the rays meet what is left."""
+    return _cases(rng, rng.choice(list(BROKEN), n, p=np.array(list(BROKEN.values())) / 100))
+
+
+def _cases(
+    rng: np.random.Generator, kind: NDArray[np.str_]
+) -> tuple[NDArray[np.float32], list[str]]:
+    n = len(kind)
     size = 10 ** rng.uniform(-4, 4, n)
     p = _random_triangles(rng, size)
     p[kind == "equal corners", 2] = p[kind == "equal corners", 1]
+    p[kind == "a point", 1:] = p[kind == "a point", :1]
     p = _shuffled_corners(rng, p)
     target = np.einsum("ni,nij->nj", _random_weights(rng, kind), p)
     towards, grazing = _random_directions(rng, p, n)
@@ -48,6 +64,19 @@ def random_cases(rng: np.random.Generator, n: int) -> tuple[NDArray[np.float32],
     label = [_label(k, s, g) for k, s, g in zip(kind, size, grazing, strict=True)]
     columns = [p.reshape(n, 9), origin, direction, t_min[:, None], t_max[:, None]]
     return np.concatenate(columns, axis=1).astype("<f4"), label
+
+
+def hostile_cases(rng: np.random.Generator, n: int) -> tuple[NDArray[np.float32], list[str]]:
+    """What no scene holds: NaN, infinities, no direction, ends of a float's range."""
+    words, label = random_cases(rng, n)
+    odd = np.array(
+        [np.nan, np.inf, -np.inf, 0, -0.0, 1e-45, -1e-38, 3e38, -3e38, 1e-20], np.float32
+    )
+    struck = rng.random(words.shape) < rng.choice([0.05, 0.3, 1.0], (n, 1))
+    words = np.where(struck, rng.choice(odd, words.shape), words).astype("<f4")
+    words[: n // 20, 12:15] = 0
+    words[n // 20 : n // 10, 3:9] = np.tile(words[n // 20 : n // 10, 0:3], 2)
+    return words, [f"hostile, from {name}" for name in label]
 
 
 def _label(kind: str, size: float, grazing: bool) -> str:

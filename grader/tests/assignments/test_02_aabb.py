@@ -36,7 +36,7 @@ def test_right_modules_pass(bench: Bench, module: Path, cc: str, level: str) -> 
 
 @pytest.mark.parametrize("module", RIGHT, ids=lambda file: file.stem)
 def test_right_modules_pass_with_other_seeds(bench: Bench, module: Path) -> None:
-    for seed in range(100, 110):
+    for seed in (100, 101, 102):
         for check in (RANDOM, SHORT_WAYS):
             assert bench.failures(module, check, seed=seed) == [], f"{check}, seed {seed}"
 

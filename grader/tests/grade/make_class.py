@@ -13,17 +13,17 @@ from __future__ import annotations
 import argparse
 import io
 import shutil
-import subprocess
 import sys
 import tarfile
 import zipfile
 from pathlib import Path
 
 from raybook_grader.checks.stub import stub_text
+from raybook_grader.course import load_course
+from raybook_grader.museum import exhibits_of
 
 CHECKOUT = Path(__file__).resolve().parents[3]
 OWNED = "src/shapes/triangle.c"
-ASSIGNMENT = "assignments/01-triangle"
 
 _STUB_LINE = "    (void)p, (void)r, (void)hit;\n"
 
@@ -47,13 +47,10 @@ def make_class(out: Path) -> dict[str, str]:
         _folder(out, "crashes", _begin(stub, "    *(volatile int *)0 = 1;\n")): "crash",
         _folder(out, "never-ends", _begin(stub, "    while (hit)\n        ;\n")): "timeout",
     }
-    for file in sorted((CHECKOUT / ASSIGNMENT / "alternatives").glob("*.c")):
-        name = _folder(out, f"right-{file.stem}", file.read_text(encoding="utf-8"))
-        verdicts[name] = "pass"
-    for patch in sorted((CHECKOUT / ASSIGNMENT / "mistakes").glob("*.patch")):
-        name = _folder(out, f"wrong-{patch.stem}", right)
-        _apply(patch, out / name)
-        verdicts[name] = "fail"
+    for exhibit in exhibits_of(CHECKOUT, load_course(CHECKOUT).assignment("01")):
+        kind, verdict = ("right", "pass") if exhibit.is_right else ("wrong", "fail")
+        text = exhibit.files[OWNED].decode()
+        verdicts[_folder(out, f"{kind}-{exhibit.slug}", text)] = verdict
     return verdicts
 
 
@@ -68,16 +65,6 @@ def _folder(out: Path, name: str, text: str) -> str:
     file.parent.mkdir(parents=True)
     file.write_text(text, encoding="utf-8")
     return name
-
-
-def _apply(patch: Path, folder: Path) -> None:
-    """Put a mistake into the solution."""
-    done = subprocess.run(
-        ["patch", "--strip=1", "--silent", "--directory", str(folder), "--input", str(patch)],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    if done.returncode != 0:
-        sys.exit(f"{patch} does not apply to {OWNED}:\n{done.stdout}{done.stderr}")
 
 
 def _zip(out: Path, name: str, text: str) -> str:
