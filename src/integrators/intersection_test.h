@@ -24,10 +24,10 @@
  *                           If bounce returns false the answer is black.
  *   any other material      The way ends. delta_lighting is the light there.
  *
- * t->scene->integrator.max_depth, 0 or more, is how many clear surfaces a ray
+ * t->scene->integrator.max_depth, 1 or more, is how many clear surfaces a ray
  * may go on from, through them or mirrored: where it meets one more the answer
- * is black. So with 0 a clear object is black, and from 2 on one can see
- * through a glass ball.
+ * is black. So with 1 a glass ball is black, and from 2 on one can see through
+ * it.
  *
  * Not asked: light that a clear surface gathers (delta_lighting is black
  * there), lights that hide behind glass, Fresnel's shares, random numbers:
