@@ -13,7 +13,8 @@ radiance may be off by more than one per cent.
 from __future__ import annotations
 
 import numpy as np
-from chain_tracer import LEFT, LIT, UNKNOWN, Array, Json, Mask, Nudges, Ways, things_of, trace
+from chain_things import Array, Json, Mask, things_of
+from chain_tracer import LEFT, LIT, UNKNOWN, Nudges, Ways, trace
 from numpy.typing import NDArray
 
 ENLARGED = 256

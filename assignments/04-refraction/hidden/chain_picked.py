@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from chain_scenes import GREY, Json, Shot, Stage, box, clear, lamp_of, mirror, pane
+from chain_scenes import GREY, Shot, Stage, box, clear, lamp_of, mirror, pane
 
 SCALES = (1.0, 1e-3, 1e3)
 
@@ -17,7 +17,7 @@ def mirrors(scales: Sequence[float] = SCALES) -> Iterator[Shot]:
         yield from _ends(scale)
         for count in (1, 2, 3, 5, 8):
             for limit in sorted({1, max(1, count - 1), count, count + 1}):
-                yield _zigzag(f"{count} mirrors, max_depth {limit}", count, scale, max_depth=limit)
+                yield _zigzag(count, limit, scale)
 
 
 def glasses(scales: Sequence[float] = SCALES) -> Iterator[Shot]:
@@ -48,11 +48,12 @@ def _no_mirror(scale: float) -> Iterator[Shot]:
     yield stage.shot("past everything, under a bright sky", (0, 0, 3), (0, 1, 1))
 
 
-def _zigzag(label: str, count: int, scale: float, end: Json | None = None, **more: int) -> Shot:
+def _zigzag(count: int, limit: int, scale: float) -> Shot:
     """Mirrors above and below; the ray goes up and down by 45 degrees, ``count`` times."""
-    stage = Stage(lamp=(2 * count - 1.2, 0.3, 0.4), scale=scale, **more)
+    stage = Stage(lamp=(2 * count - 1.2, 0.3, 0.4), scale=scale, max_depth=limit)
     _tunnel(stage, count, 0.9, 0.8)
-    stage.rect((2 * count, 0, 0), (0, 0, 4), (0, 4, 0), end or stage.paint(GREY))
+    stage.rect((2 * count, 0, 0), (0, 0, 4), (0, 4, 0), stage.paint(GREY))
+    label = f"{count} mirrors, max_depth {limit}"
     return stage.shot(label, (0.01, 0.02, 0.03), [(1, 1, 0.1), (1, 1, -0.05)])
 
 
@@ -67,8 +68,8 @@ def _ends(scale: float) -> Iterator[Shot]:
     start, way = (0.01, 0.02, 0.03), [(1, 1, 0.1), (1, 1, -0.05)]
     far, tall, wide = (6, 0, 0), (0, 0, 4), (0, 4, 0)
 
-    def tunnel(**more: bool) -> Stage:
-        stage = Stage(lamp=(4.8, 0.3, 0.4), scale=scale, **more)
+    def tunnel(sky: bool = False) -> Stage:
+        stage = Stage(lamp=(4.8, 0.3, 0.4), scale=scale, sky=sky)
         _tunnel(stage, 3, 0.9, 0.8)
         return stage
 
@@ -120,8 +121,7 @@ def _ends(scale: float) -> Iterator[Shot]:
     yield stage.shot("a mirror that leaves only red", start, way)
 
     stage = Stage(lamp=(1.4, 0.3, 0.4), scale=scale)
-    for y, turn in ((1, ((0, 0, 4), (20, 0, 0))), (-1, ((20, 0, 0), (0, 0, 4)))):
-        stage.rect((1, y, 0), *turn, mirror((0, 0, 0)))
+    stage.rect((1, 1, 0), (0, 0, 4), (20, 0, 0), mirror((0, 0, 0)))
     stage.rect((2, 0, 0), tall, wide, stage.paint(GREY))
     yield stage.shot("a black mirror", start, way)
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from chain_scenes import Array, Json, Shot, Stage, box, clear, lamp_of, mirror, pane
+from chain_scenes import Shot, Stage, box, clear, lamp_of, mirror, pane
+from chain_things import Array, Json
 
 ROOMS = 40
 RAYS = 40

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from chain_tracer import Array, Json
+from chain_things import Array, Json
 
 Vector = Any
 """Three numbers, in any form."""
@@ -45,7 +45,9 @@ class Stage:
     lights: list[Json] = field(default_factory=list)
     sky: bool = False
 
-    def rect(self, center: Vector, x: Vector, y: Vector, material: Json | None, **more: Any) -> None:
+    def rect(
+        self, center: Vector, x: Vector, y: Vector, material: Json | None, **more: Any
+    ) -> None:
         """A rect with sides x and y, at right angles; its normal is x cross y."""
         across = np.cross(x, y)
         columns = [x, y, across / np.linalg.norm(across), center]
@@ -55,7 +57,9 @@ class Stage:
 
     def sphere(self, center: Vector, radius: float, material: Json | None, **more: Any) -> None:
         place = (np.asarray(center, float) * self.scale).tolist()
-        self._add({"type": "sphere", "center": place, "radius": radius * self.scale}, material, more)
+        self._add(
+            {"type": "sphere", "center": place, "radius": radius * self.scale}, material, more
+        )
 
     def paint(self, color: Vector, twosided: bool = True) -> Json:
         """A diffuse material."""

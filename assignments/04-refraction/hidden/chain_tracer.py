@@ -7,31 +7,14 @@ of its segments, which tells how much a rounding there changes the answer (chain
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from chain_things import Array, Json, Mask, Thing, nearest, single, surface, things_of, unit
 from numpy.typing import NDArray
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
-Json = dict[str, Any]
 
 LEFT, UNLIT, NO_MATERIAL, TOO_DEEP, ABSORBED, LIT, UNKNOWN = range(7)
 """How a way ends. UNLIT: on a surface that no light reaches. UNKNOWN: chance or a gloss decides, or
 the ray comes near a critical angle."""
-
-
-@dataclass(frozen=True)
-class Thing:
-    """A rect (sides x and y) or a sphere (radius). ``material`` None: none."""
-
-    center: Array
-    x: Array
-    y: Array
-    normal: Array
-    radius: float
-    material: Json | None
-    albedo: Array
 
 
 @dataclass(frozen=True)
@@ -65,17 +48,12 @@ class Ways:
     lights: NDArray[np.int64]
 
 
-def things_of(scene: Json) -> list[Thing]:
-    """The scene's objects; numbers are rounded to single precision, as the loader does."""
-    return [_thing(scene, entry) for entry in scene["objects"]]
-
-
 def trace(scene: Json, origin: Array, direction: Array, nudges: Nudges | None = None) -> Ways:
     """Follow the rays."""
     things = things_of(scene)
     limit = int(scene["integrator"]["max_depth"])
     n = len(origin)
-    o, d = origin.copy(), _unit(direction)
+    o, d = origin.copy(), unit(direction)
     throughput, radiance = np.ones((n, 3)), np.zeros((n, 3))
     end = np.full(n, LEFT)
     lights = np.zeros(n, np.int64)
@@ -92,7 +70,7 @@ def trace(scene: Json, origin: Array, direction: Array, nudges: Nudges | None = 
         met[going, depth] = thing
         going, thing, t = going[thing >= 0], thing[thing >= 0], t[thing >= 0]
         leaving[going] = thing
-        point, normal = _surface(things, thing, o[going], d[going], t)
+        point, normal = surface(things, thing, o[going], d[going], t)
         stays = np.zeros(len(going), bool)
         for index in np.unique(thing):
             rows = np.flatnonzero(thing == index)
@@ -119,68 +97,7 @@ def trace(scene: Json, origin: Array, direction: Array, nudges: Nudges | None = 
     return Ways(radiance, throughput, end, met, total, bends, lights)
 
 
-def nearest(
-    things: list[Thing], o: Array, d: Array, leaving: NDArray[np.int64]
-) -> tuple[NDArray[np.int64], Array]:
-    """The thing that each ray meets first, or -1, and where. ``leaving``: what it starts on."""
-    best, found = np.full(len(o), np.inf), np.full(len(o), -1)
-    for index, thing in enumerate(things):
-        t = _crossing(thing, o, d, leaving == index)
-        closer = t < best
-        best[closer], found[closer] = t[closer], index
-    return found, best
-
-
-def _thing(scene: Json, entry: Json) -> Thing:
-    material = scene["materials"].get(entry.get("material_name"))
-    albedo = np.ones(3)
-    if material and "texture_name" in material:
-        albedo = _single(scene["textures"][material["texture_name"]]["color"])
-    if entry["type"] == "sphere":
-        zero = np.zeros(3)
-        return Thing(_single(entry["center"]), zero, zero, zero,
-                     float(np.float32(entry["radius"])), material, albedo)  # fmt: skip
-    rows = _single(entry["transform"]).reshape(4, 4)
-    x, y, z = rows[:3, 0], rows[:3, 1], rows[:3, 2]
-    across = np.cross(x, y)
-    normal = _unit(across[None])[0] * np.sign(np.dot(across, z))
-    return Thing(rows[:3, 3], x, y, normal, 0.0, material, albedo)
-
-
-def _crossing(thing: Thing, o: Array, d: Array, leaving: Mask) -> Array:
-    """Where a ray meets the thing; infinite on a miss.
-
-    A ray that leaves a rect does not meet it again; one that leaves a sphere for its inside does.
-    """
-    way = thing.center - o
-    with np.errstate(all="ignore"):
-        if thing.radius:
-            b = np.sum(way * d, axis=1)
-            root = np.sqrt(thing.radius**2 - np.sum((way - b[:, None] * d) ** 2, axis=1))
-            t = np.where(leaving | (b - root <= 0), b + root, b - root)
-            return np.asarray(np.where((t > 0) & ~(leaving & (b <= 0)), t, np.inf))
-        t = way @ thing.normal / (d @ thing.normal)
-        place = o + t[:, None] * d - thing.center
-        # The sides of these rects are at right angles.
-        u, v = place @ thing.x / (thing.x @ thing.x), place @ thing.y / (thing.y @ thing.y)
-        inside = (np.abs(u) <= 0.5) & (np.abs(v) <= 0.5) & (t > 0) & ~leaving
-        return np.asarray(np.where(inside, t, np.inf))
-
-
-def _surface(
-    things: list[Thing], thing: NDArray[np.int64], o: Array, d: Array, t: Array
-) -> tuple[Array, Array]:
-    point = o + t[:, None] * d
-    normal = np.zeros_like(point)
-    for index in np.unique(thing):
-        rows, it = thing == index, things[index]
-        normal[rows] = _unit(point[rows] - it.center) if it.radius else it.normal
-    return point, normal
-
-
-def _bend(
-    material: Json, normal: Array, outgoing: Array
-) -> tuple[Array, Array, Mask, Mask, Array]:
+def _bend(material: Json, normal: Array, outgoing: Array) -> tuple[Array, Array, Mask, Mask, Array]:
     """Where the ray goes on, its weight, whether it is mirrored, and whether that is sure."""
     eta = float(np.float32(material.get("eta", 1.5)))
     c = np.sum(outgoing * normal, axis=1, keepdims=True)
@@ -192,7 +109,7 @@ def _bend(
     beyond = -r * along - side * np.sqrt(np.maximum(k, 0)) * normal
     out = np.where(k < 0, c * normal - along, beyond)
     glass = material["type"] == "glass"
-    passed, back = (_single(material.get(part, [1, 1, 1])) for part in "TR")
+    passed, back = (single(material.get(part, [1, 1, 1])) for part in "TR")
     weight = np.where(k < 0, back, passed) if glass else np.ones_like(out)
     known = mirrored | (eta == 1) if glass else np.ones(len(out), bool)
     # The contract of refraction_direction; near the critical angle it promises nothing.
@@ -215,15 +132,15 @@ def _lit(
         facing = np.where(facing > 0, facing, 0)
     for number, light in enumerate(_lights(scene)):
         if light["type"] == "point":
-            way = _single(light["position"]) - point
+            way = single(light["position"]) - point
             square = np.sum(way**2, axis=1, keepdims=True)
             reach = np.sqrt(square)
-            arriving = _single(light["flux"]) / (4 * np.pi * square)
+            arriving = single(light["flux"]) / (4 * np.pi * square)
         else:
-            way = np.broadcast_to(-_single(light["direction"]), point.shape)
+            way = np.broadcast_to(-single(light["direction"]), point.shape)
             reach = np.full((len(point), 1), np.inf)
-            arriving = np.broadcast_to(_single(light["irradiance"]), point.shape)
-        to = _unit(way)
+            arriving = np.broadcast_to(single(light["irradiance"]), point.shape)
+        to = unit(way)
         cosine = np.sum(to * normal, axis=1) * facing
         blocked = nearest(things, point, to, leaving)[1] < reach[:, 0]
         seen = (cosine > 0) & ~blocked
@@ -241,17 +158,8 @@ def _lights(scene: Json) -> list[Json]:
 
 
 def _nudge(o: Array, d: Array, at: NDArray[np.int64], nudges: Nudges) -> None:
-    first = _unit(np.cross(d[at], np.eye(3)[np.abs(d[at]).argmin(axis=1)]))
+    first = unit(np.cross(d[at], np.eye(3)[np.abs(d[at]).argmin(axis=1)]))
     second = np.cross(d[at], first)
     across, turn = nudges.across[at], nudges.turn[at]
     o[at] += across[:, :1] * first + across[:, 1:] * second
-    d[at] = _unit(d[at] + turn[:, :1] * first + turn[:, 1:] * second)
-
-
-def _single(values: Any) -> Array:
-    return np.array(values, np.float32).astype(np.float64)
-
-
-def _unit(v: Array) -> Array:
-    length: Array = np.linalg.norm(v, axis=1, keepdims=True)
-    return np.asarray(v / length)
+    d[at] = unit(d[at] + turn[:, :1] * first + turn[:, 1:] * second)

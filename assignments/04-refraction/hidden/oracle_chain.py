@@ -15,16 +15,16 @@ import struct
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-from chain_bounds import bounds
-from chain_tracer import ABSORBED, LEFT, NO_MATERIAL, TOO_DEEP, UNLIT, Array, Json
-from numpy.typing import NDArray
-from raybook_grader.probes import Cases, Failure
-from refraction_words import point, wrong_length
-
 import chain_picked
 import chain_random
+import numpy as np
+from chain_bounds import bounds
 from chain_scenes import Shot
+from chain_things import Array, Json
+from chain_tracer import ABSORBED, LEFT, NO_MATERIAL, TOO_DEEP, UNLIT
+from numpy.typing import NDArray
+from raybook_grader.cases import point, wrong_length
+from raybook_grader.probes import Cases, Failure
 
 WORDS_OUT = 3
 ALMOST_BLACK = 1e-6
@@ -83,14 +83,21 @@ def _collect(shots: list[Shot]) -> tuple[bytes, Context]:
         ways, tolerance, kept = bounds(shot.scene, shot.origin, shot.direction)
         rays = np.hstack([shot.origin, shot.direction])[kept].astype("<f4")
         text = json.dumps(shot.scene).encode()
-        payload += [struct.pack("<I", len(text)), text, struct.pack("<I", len(rays)), rays.tobytes()]
+        payload += [
+            struct.pack("<I", len(text)),
+            text,
+            struct.pack("<I", len(rays)),
+            rays.tobytes(),
+        ]
         columns = (shot.origin, shot.direction, ways.radiance, tolerance, ways.throughput)
         rest = np.column_stack([np.full(len(kept), number), ways.end])
         parts.append(np.hstack([*columns, rest])[kept])
         met += [[int(i) for i in row if i >= 0] for row in ways.met[kept]]
         mirrored += [[bool(m) for m in row] for row in ways.total[kept]]
     table = np.concatenate(parts)
-    origin, direction, radiance, tolerance, throughput = (table[:, i : i + 3] for i in range(0, 15, 3))
+    origin, direction, radiance, tolerance, throughput = (
+        table[:, i : i + 3] for i in range(0, 15, 3)
+    )
     scene_of, end = table[:, 15].astype(int), table[:, 16].astype(int)
     return b"".join(payload), Context(
         [shot.scene for shot in shots], [shot.label for shot in shots], scene_of,

@@ -11,11 +11,12 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from raybook_grader.cases import number, numbers, point, read_table, wrong_length
 from raybook_grader.probes import Cases, Failure
-from refraction_words import number, point, wrong_length
 from snell import Array, Snell, snell
 
 WORDS_IN, WORDS_OUT = 7, 4
+EDGES = Path(__file__).with_name("edges_refraction.txt")
 RANDOM_CASES = 10_000
 LENGTH_ERROR = 2e-6
 """For vectors that are right but for their length: three components off by the promised 1e-6."""
@@ -83,8 +84,8 @@ def _failure(context: Context, case: int, through: bool, got: Array) -> Failure:
         f"{degrees:.4g} degrees from the normal): "
     )
     sentence = (
-        f"expected {_answer(expects_through)} and {point(want)}, got {_answer(through)} and "
-        f"{point(got)}"
+        f"expected {_answer(expects_through)} and {point(want + 0.0)}, got {_answer(through)} and "
+        f"{point(got + 0.0)}"
     )
     what = _what(context, case, expects_through, through, want, got)
     return Failure(
@@ -121,14 +122,12 @@ def _what(
 
 def _hand_picked() -> tuple[Array, list[str]]:
     """Each line of edges_refraction.txt three times, with its axes moved on."""
-    table = Path(__file__).with_name("edges_refraction.txt").read_text(encoding="utf-8")
-    rows = [line.split("|") for line in table.splitlines() if line and not line.startswith("#")]
     wide, label = [], []
     for turn in range(3):
-        for _, kind, normal, outgoing, eta, name in rows:
-            vectors = [np.roll(_unit(np.array(v.split(), float)), turn) for v in (normal, outgoing)]
+        for _, kind, normal, outgoing, eta, name in read_table(EDGES):
+            vectors = [_unit(numbers(v, turn)) for v in (normal, outgoing)]
             wide.append(np.concatenate([*vectors, [float(eta)]]))
-            label.append(f"{kind.strip()}: {name.strip()}")
+            label.append(f"{kind}: {name}")
     return np.array(wide), label
 
 
