@@ -27,7 +27,7 @@ def glasses(scales: Sequence[float] = SCALES) -> Iterator[Shot]:
             yield _ball(f"a ball of index {eta:g}", eta, scale)
             yield _slab(f"a thick pane of index {eta:g}", eta, scale)
         for limit in (1, 2, 3):
-            yield _ball(f"a glass ball, max_depth {limit}", 1.5, scale, max_depth=limit)
+            yield _ball("a glass ball, and a limit", 1.5, scale, max_depth=limit)
         for eta in (1.5, 1.2):
             yield _cube(f"a cube of index {eta:g}", eta, scale)
         yield _bubble("a bubble in a glass ball", scale)
@@ -35,10 +35,10 @@ def glasses(scales: Sequence[float] = SCALES) -> Iterator[Shot]:
 
 
 def _no_mirror(scale: float) -> Iterator[Shot]:
-    for name, limit in (("a wall, and nothing clear", 16), ("a wall, max_depth 1", 1)):
+    for limit in (16, 1):
         stage = Stage(lamp=(1, 1, 1), scale=scale, max_depth=limit)
         stage.rect((0, 0, -2), (8, 0, 0), (0, 8, 0), stage.paint(GREY))
-        yield stage.shot(name, [(0, 0, 3), (1, 0, 3)], (0.1, 0.2, -1))
+        yield stage.shot("a wall, and nothing clear", [(0, 0, 3), (1, 0, 3)], (0.1, 0.2, -1))
     stage = Stage(lamp=(0, 0, 3), scale=scale)
     stage.rect((0, 0, -2), (8, 0, 0), (0, 8, 0), stage.paint(GREY))
     stage.sphere((0, 0, 0), 1, clear(1.5))
@@ -53,8 +53,7 @@ def _zigzag(count: int, limit: int, scale: float) -> Shot:
     stage = Stage(lamp=(2 * count - 1.2, 0.3, 0.4), scale=scale, max_depth=limit)
     _tunnel(stage, count, 0.9, 0.8)
     stage.rect((2 * count, 0, 0), (0, 0, 4), (0, 4, 0), stage.paint(GREY))
-    label = f"{count} mirrors, max_depth {limit}"
-    return stage.shot(label, (0.01, 0.02, 0.03), [(1, 1, 0.1), (1, 1, -0.05)])
+    return stage.shot("mirrors in a row", (0.01, 0.02, 0.03), [(1, 1, 0.1), (1, 1, -0.05)])
 
 
 def _tunnel(stage: Stage, count: int, above: float, below: float) -> None:
@@ -189,5 +188,5 @@ def deep() -> Iterator[Shot]:
         for i in range(count):
             stage.rect((0, 0, 0.1 * i), (3, 0, 0), (0, 3, 0), pane((0.99, 1, 0.98)))
         stage.rect((0, 0, -2), (8, 0, 0), (0, 8, 0), stage.paint(GREY))
-        label = f"{count} panes, max_depth {limit}"
+        label = f"{count} panes"
         yield stage.shot(label, (0, 0, 5), [(0.01, 0.02, -1), (0, -0.01, -1)])

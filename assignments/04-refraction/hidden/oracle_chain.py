@@ -108,11 +108,11 @@ def _collect(shots: list[Shot]) -> tuple[bytes, Context]:
 # --- Words -----------------------------------------------------------------------------------
 
 BLACK = {
-    LEFT: "meets nothing more: black",
-    UNLIT: "no light reaches it: black",
-    NO_MATERIAL: "which has no material: black",
-    TOO_DEEP: "which is one clear surface too many: black",
-    ABSORBED: "which lets nothing through: black",
+    LEFT: "then nothing",
+    UNLIT: "which no light reaches",
+    NO_MATERIAL: "which has no material",
+    TOO_DEEP: "which is one clear surface too many",
+    ABSORBED: "which lets nothing on",
 }
 
 
@@ -130,28 +130,28 @@ def _failure(context: Context, case: int, got: Array) -> Failure:
 
 def _way(context: Context, case: int, scene: Json) -> str:
     """What the ray meets, one after the other, and how it ends."""
-    steps = list(_steps(context, case, scene))
-    end = BLACK.get(int(context.end[case]), "")
-    met = ", then ".join(steps)
+    met = ", then ".join(_steps(context, case, scene))
     if not met:
-        return "meets nothing: black"
-    return f"meets {met}" + (f", {end}" if end else "")
+        return "meets nothing"
+    why = BLACK.get(int(context.end[case]))
+    return f"meets {met}" + (f", {why}" if why else "")
 
 
 def _steps(context: Context, case: int, scene: Json) -> Iterator[str]:
     met = context.met[case]
+    ends = context.end[case] in (TOO_DEEP, ABSORBED)
     for i, index in enumerate(met):
         entry = scene["objects"][index]
         material = scene["materials"].get(entry.get("material_name"))
-        shape = f"object {index}, a {entry['type']}"
+        kind, it = entry["type"], f"(object {index})"
         if material is None:
-            yield shape
-        elif material["type"] in ("refraction", "glass"):
-            passed = "mirrored by" if context.mirrored[case][i] else "through"
-            last = i == len(met) - 1 and context.end[case] == TOO_DEEP
-            yield f"{'' if last else passed + ' '}{shape} of index {material['eta']:g}"
+            yield f"a {kind} {it}"
+        elif material["type"] not in ("refraction", "glass"):
+            yield f"a {material['type']} {kind} {it}"
         else:
-            yield f"{shape} of {material['type']} material"
+            does = "mirrors it" if context.mirrored[case][i] else "lets it through"
+            last = ends and i == len(met) - 1
+            yield f"a {kind} of index {material['eta']:g} {it}" + ("" if last else f" that {does}")
 
 
 def _kind(context: Context, case: int, got: Array) -> str:
@@ -161,7 +161,7 @@ def _kind(context: Context, case: int, got: Array) -> str:
     if not np.isfinite(got).all():
         return "not a number"
     if (context.radiance[case] == 0).all():
-        return f"not black: {BLACK[int(context.end[case])].split(':')[0]}"
+        return f"not black: {BLACK[int(context.end[case])]}"
     if (got == 0).all():
         return f"black: behind {behind}"
     with np.errstate(all="ignore"):

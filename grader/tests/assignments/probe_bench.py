@@ -32,7 +32,10 @@ def run(*command: str) -> None:
 
 @dataclass
 class Bench:
-    """Builds modules of one owned file with drivers and tests; keeps what it compiled."""
+    """Builds one owned file with drivers and tests; keeps what it compiled.
+
+    Of a module of several files, one is told by its name, and the others are the reference's.
+    """
 
     folder: Path
     assignment: Assignment
@@ -44,19 +47,28 @@ class Bench:
         return {c.name: c for c in self.assignment.checks if isinstance(c, ProbeCheck)}
 
     @property
+    def units(self) -> list[UnitCheck]:
+        return [c for c in self.assignment.checks if isinstance(c, UnitCheck)]
+
+    @property
     def unit(self) -> UnitCheck:
-        return next(c for c in self.assignment.checks if isinstance(c, UnitCheck))
+        return self.units[0]
 
     @property
     def module(self) -> Path:
         """The reference's module."""
         return ROOT / self.assignment.owned[0]
 
+    def owned(self, module: Path) -> str:
+        """The owned file that this one stands for."""
+        named = [path for path in self.assignment.owned if Path(path).name == module.name]
+        return (named or self.assignment.owned)[0]
+
     def object(self, source: Path, cc: str, flags: Sequence[str]) -> Path:
         key = (source, (cc, *flags))
         if key not in self.kept:
             out = self.folder / f"{len(self.kept)}.o"
-            beside = (ROOT / self.assignment.owned[0]).parent
+            beside = (ROOT / self.owned(source)).parent
             include = [f"-I{ROOT / 'src'}", "-iquote", str(beside), "-isystem", str(UNITY)]
             run(cc, *WARNINGS, *CODE, *flags, *include, "-c", str(source), "-o", str(out))
             self.kept[key] = out
@@ -69,7 +81,7 @@ class Bench:
         objects = [self.object(main, cc, shared), self.object(module, cc, flags)]
         if main.name.startswith("test_"):
             objects.append(self.object(UNITY / "unity.c", cc, shared))
-        left_out = {"objects/main.o", kit.modules[self.assignment.owned[0]].object}
+        left_out = {"objects/main.o", kit.modules[self.owned(module)].object}
         rest = [str(kit.folder / name) for name in kit.objects if name not in left_out]
         out = self.folder / f"{objects[1].stem}-{main.stem}"
         run("gcc", *CODE, *shared, *map(str, objects), *rest, *kit.ldlibs, "-o", str(out))
@@ -99,16 +111,18 @@ class Bench:
     def failing(self, module: Path, cc: str = "gcc", flags: Sequence[str] = ("-O2",)) -> set[str]:
         """The names of the checks that the module fails: unit tests and probes."""
         failing = {check for check in self.probes if self.failures(module, check, cc, flags)}
-        tests = self.program(self.assignment.folder / self.unit.tests, module, cc, flags)
-        if subprocess.run([tests], capture_output=True).returncode != 0:
-            failing.add(self.unit.name)
+        for unit in self.units:
+            tests = self.program(self.assignment.folder / unit.tests, module, cc, flags)
+            if subprocess.run([tests], capture_output=True).returncode != 0:
+                failing.add(unit.name)
         return failing
 
-    def mutant(self, old: str, new: str, folder: Path) -> Path:
-        """The reference's module with one text replaced."""
-        text = self.module.read_text()
-        assert old in text, f"{self.module.name} no longer says {old!r}"
-        module = folder / self.module.name
+    def mutant(self, old: str, new: str, folder: Path, of: Path | None = None) -> Path:
+        """The reference's module, or another one, with one text replaced."""
+        original = of or self.module
+        text = original.read_text()
+        assert old in text, f"{original.name} no longer says {old!r}"
+        module = folder / original.name
         module.write_text(text.replace(old, new))
         return module
 
@@ -118,5 +132,6 @@ def assignment_of(number: str) -> Assignment:
 
 
 def right_modules(assignment: Assignment) -> list[Path]:
-    """The reference and the alternatives, which are whole files."""
-    return [ROOT / assignment.owned[0], *sorted((assignment.folder / "alternatives").glob("*.c"))]
+    """The reference and the alternatives, which are whole files; of each only what it changes."""
+    alternatives = sorted((assignment.folder / "alternatives").rglob("*.c"))
+    return [*(ROOT / path for path in assignment.owned), *alternatives]
