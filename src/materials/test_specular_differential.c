@@ -9,8 +9,13 @@
 #include "shapes/triangle.h"
 #include "unity.h"
 
+/* What is compared here is bent by the exercise of assignment 04. */
 void setUp(void)
 {
+    vec3 in, up = {0.0f, 0.0f, 1.0f};
+    bool through = refraction_direction(up, unit(0.6f, 0.0f, 0.8f), 1.5f, &in);
+    if (!through || fabsf(in.x + 0.4f) > 1e-5f)
+        TEST_IGNORE_MESSAGE("waits for assignment 04: light is not bent");
 }
 
 void tearDown(void)
