@@ -8,6 +8,7 @@
 # Nothing is asked of a person unless both ends are a terminal. Exit code: 0 all there, 1 not.
 #
 # Environment: PYTHON      the interpreter to make build/venv from (3.11 to 3.13)
+#              RAYBOOK_VENV  an environment that has the packages already, in place of build/venv
 #              UNITY_ROOT  a folder with unity.c and its headers, in place of build/unity
 set -euo pipefail
 

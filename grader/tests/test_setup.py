@@ -190,10 +190,24 @@ def test_without_apt_the_libraries_are_checked(machine: Machine, tmp_path: Path)
 # ---- python ----
 
 
-def test_no_environment_in_the_student_edition(machine: Machine, tmp_path: Path) -> None:
-    result = machine.setup(UNITY_ROOT=str(unity_in(tmp_path)))
+def test_the_student_edition_has_a_small_environment(machine: Machine, tmp_path: Path) -> None:
+    unity = str(unity_in(tmp_path))
+    result = machine.setup(UNITY_ROOT=unity, PYTHON="python")
+    assert result.returncode == 0, said(result)
+    venv = machine.checkout / "build/venv"
+    assert (SETUP / "student.lock").read_text() in (venv / "lock.stamp").read_text()
+    assert not (venv / "grader.stamp").exists()
+    assert said(machine.setup(UNITY_ROOT=unity, PYTHON="python")) == ""
+
+
+def test_anothers_environment_is_used_as_it_is(machine: Machine, tmp_path: Path) -> None:
+    missing = machine.setup("python", RAYBOOK_VENV=str(tmp_path / "shared"))
+    assert missing.returncode == 1
+    assert f"RAYBOOK_VENV={tmp_path}/shared has no bin/python" in missing.stderr
+    (tmp_path / "shared/bin").mkdir(parents=True)
+    shutil.copy(tmp_path / "tools/python", tmp_path / "shared/bin/python")
+    result = machine.setup("python", RAYBOOK_VENV=str(tmp_path / "shared"))
     assert (result.returncode, said(result)) == (0, "")
-    assert not (machine.checkout / "build").exists()
 
 
 def with_grader(machine: Machine) -> Path:
@@ -326,17 +340,38 @@ def normal(name: str) -> str:
     return re.sub(r"[-_.]+", "-", name).lower()
 
 
-def test_lock_pins_and_hashes_every_package() -> None:
-    text = re.sub(r"^ *#.*\n", "", (SETUP / "requirements.lock").read_text(), flags=re.MULTILINE)
-    entries = re.sub(r"\\\n", " ", text).splitlines()
+LOCKS = ["requirements", "student"]
+
+
+def lines_of(name: str) -> list[str]:
+    """The entries of a lock, each in one line, without its comments."""
+    text = re.sub(r"^ *#.*\n", "", (SETUP / f"{name}.lock").read_text(), flags=re.MULTILINE)
+    return re.sub(r"\\\n", " ", text).splitlines()
+
+
+def wanted(name: str) -> set[str]:
+    """The packages that an .in file asks for, also by way of another."""
+    text = (SETUP / f"{name}.in").read_text()
+    names = {normal(found) for found in re.findall(r"^\w[\w.-]*", text, re.MULTILINE)}
+    for other in re.findall(r"^-r (\w+)\.in", text, re.MULTILINE):
+        names |= wanted(other)
+    return names
+
+
+@pytest.mark.parametrize("name", LOCKS)
+def test_lock_pins_and_hashes_every_package(name: str) -> None:
     hashed = re.compile(r"[\w.-]+==[\w.]+( ; [^=]+[=<>!]=?[^=]+)? +(--hash=sha256:[0-9a-f]{64} *)+")
-    for entry in entries:
+    for entry in lines_of(name):
         assert hashed.fullmatch(re.sub(" +", " ", entry)), entry
-    pinned = {normal(entry.partition("==")[0]) for entry in entries}
-    wanted = re.findall(r"^[\w.-]+", (SETUP / "requirements.in").read_text(), re.MULTILINE)
-    assert {normal(name) for name in wanted} <= pinned
+    pinned = {normal(entry.partition("==")[0]) for entry in lines_of(name)}
+    assert wanted(name) <= pinned
 
 
-def test_lock_names_no_index_and_no_path() -> None:
-    text = (SETUP / "requirements.lock").read_text()
+def test_student_lock_is_part_of_the_whole() -> None:
+    assert set(lines_of("student")) < set(lines_of("requirements"))
+
+
+@pytest.mark.parametrize("name", LOCKS)
+def test_lock_names_no_index_and_no_path(name: str) -> None:
+    text = (SETUP / f"{name}.lock").read_text()
     assert not re.search(r"://|--(extra-)?index-url|--find-links|(^|\s)/|file:", text)
