@@ -12,8 +12,12 @@ ARGS ?=
 OUT ?=
 A ?=
 REVEAL ?=
+HINT ?=
+PIXEL ?=
+STRICT ?=
 SUBMISSIONS ?=
 python := build/venv/bin/python
+student := $(python) -m raybook_grader.student
 grader := build/venv/bin/raybook-grader
 
 help: ## this list
@@ -54,6 +58,24 @@ check-python:
 	@build/venv/bin/mypy --config-file grader/pyproject.toml --no-error-summary
 
 c_files = $(shell find src assignments grader -name '*.[ch]' | LC_ALL=C sort)
+
+check: ## [A=03] [VARIANT=dir] [TODO="names"] the student's own loop: public tests and pictures
+	@.setup/setup.sh
+	+@$(student) check --assignment "$(A)" $(if $(STRICT),--strict)
+
+watch: ## A=03 checks again on every save
+	@.setup/setup.sh
+	+@$(student) watch --assignment "$(A)"
+
+hint: ## A=03 [HINT=1] the next hint for a student, or one again
+	@.setup/setup.sh
+	@$(student) hint --assignment "$(A)" $(if $(HINT),--again "$(HINT)")
+
+# SCENE has a default here, which is not meant.
+debug: ## A=03 or SCENE=file.json, PIXEL=x,y: that pixel's paths, and where VARIANT's differ
+	@.setup/setup.sh
+	+@$(student) debug --assignment "$(A)" --pixel "$(PIXEL)" \
+	    --scene "$(if $(filter command line,$(origin SCENE)),$(SCENE))"
 
 handout: ## [OUT=dir] [A=03] [REVEAL=01,02] writes the student edition
 	@.setup/setup.sh
@@ -98,5 +120,5 @@ fuzz: ## [SECONDS=600] searches for files that crash the readers of scenes, mesh
 clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
-.PHONY: help setup build render test format check-format check-python handout grade \
-    museum kit objects variance mitsuba fuzz clean
+.PHONY: help setup build render test format check-format check-python check watch hint debug \
+    handout grade museum kit objects variance mitsuba fuzz clean

@@ -4,6 +4,7 @@
 #   CC=gcc|clang   OPT=release|debug|asan
 #   VARIANT=dir    files of dir/src/ in place of the same files in src/
 #   TODO="a b"     these exercises as stubs: -DTODO_a -DTODO_b
+#   CHECK=yes      as `make check` builds: quick to link, warnings are no errors
 #
 # Objects go to build/obj/<configuration>/. The plain configuration's program is
 # build/raybook; any other's is build/bin/raybook-<configuration>.
@@ -16,11 +17,13 @@ OPT ?= release
 VARIANT ?=
 TODO ?=
 ARCH ?= native
+CHECK ?=
 
 empty :=
 space := $(empty) $(empty)
 variant_name := $(notdir $(patsubst %/,%,$(VARIANT)))
 config := $(OPT)-$(notdir $(CC))$(if $(filter-out native,$(ARCH)),-$(ARCH))
+config := $(config)$(if $(CHECK),-check)
 config := $(config)$(if $(TODO),-todo-$(subst $(space),+,$(sort $(TODO))))
 config := $(config)$(if $(VARIANT),-variant-$(variant_name))
 objdir := build/obj/$(config)
@@ -36,7 +39,7 @@ debug := -O0 -g3
 asan := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all \
         -fno-omit-frame-pointer
 # Modules are files; only link-time optimisation can inline one into another.
-lto := $(if $(filter release-gcc,$(OPT)-$(notdir $(CC))),-flto=auto)
+lto := $(if $(filter release-gcc,$(OPT)-$(notdir $(CC))$(CHECK)),-flto=auto)
 
 # -isystem: the warnings are for our code.
 libraries_cflags := $(patsubst -I%,-isystem%,$(filter -I%,$(shell \
@@ -46,14 +49,14 @@ ldlibs := $(shell pkg-config --libs-only-L OpenEXR libcjson stb 2>/dev/null) \
     -lcjson -lm
 
 # Embree, if it is there: it has no pkg-config file. EMBREE=no builds without.
-EMBREE ?= $(if $(shell echo '\#include <embree3/rtcore.h>' | $(CC) -E -x c - 2>/dev/null),yes,no)
+EMBREE ?= $(if $(CHECK),no,$(if $(shell echo '\#include <embree3/rtcore.h>' | $(CC) -E -x c - 2>/dev/null),yes,no))
 ifeq ($(EMBREE),yes)
   libraries_cflags += -DRAYBOOK_EMBREE
   ldlibs += -lembree3
 endif
 
 cflags = $(common) $($(filter release debug asan,$(OPT))) $(lto) $(libraries_cflags) \
-    $(patsubst %,-DTODO_%,$(TODO)) $(CFLAGS)
+    $(patsubst %,-DTODO_%,$(TODO)) $(if $(CHECK),-Wno-error) $(CFLAGS)
 ldflags = -fopenmp $($(filter release debug asan,$(OPT))) $(lto) $(LDFLAGS)
 
 sources := $(shell find src -name '*.c' ! -name 'test_*' | LC_ALL=C sort)
@@ -120,6 +123,10 @@ unit-tests: $(test_programs)
 	    echo "$${test#$(testdir)/}: $$(tail -n 2 $$test.log | head -n 1)"; \
 	done
 
+# The renderer and the tests named in TESTS, built; the last line says where.
+programs: $(program) $(TESTS:%.c=$(testdir)/%)
+	@echo $^
+
 # What clangd needs to know; made again when a source file comes or goes.
 compile_commands.json: $(stamp) src/build.mk
 	@{ printf '['; comma=''; for file in $(sources) $(tests); do \
@@ -150,6 +157,6 @@ ifndef V
 endif
 
 FORCE:
-.PHONY: FORCE unit-tests list-objects list-compiler list-libraries \
+.PHONY: FORCE unit-tests programs list-objects list-compiler list-libraries \
     render-scenes
 -include $(objects:.o=.d) $(test_programs:=.d)

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import re
-
 from ..course import BuildCheck
+from .diagnostics import first_error, first_warning, warning_count
 from .program import BuildFailure
 from .result import CheckResult, Status, conclude
 from .subject import Subject
-
-_WARNING = re.compile(r"\bwarning: (.*)")
-_ERROR = re.compile(r"\b(?:error: |fatal error: |undefined reference to )(.*)")
-_QUOTED = re.compile(r"[\u2018'`][^\u2019']*[\u2019']")
 
 
 def check_build(check: BuildCheck, subject: Subject) -> CheckResult:
@@ -19,10 +14,10 @@ def check_build(check: BuildCheck, subject: Subject) -> CheckResult:
     warnings = subject.module.warnings
     if not warnings:
         return conclude(check, Status.PASSED, "compiles without a warning")
-    count = len(_WARNING.findall(warnings))
+    count = warning_count(warnings)
     message = f"compiles with {count} warning{'' if count == 1 else 's'}"
     return conclude(
-        check, Status.PARTIAL, message, words=warnings, fingerprint=_first(_WARNING, warnings)
+        check, Status.PARTIAL, message, words=warnings, fingerprint=first_warning(warnings)
     )
 
 
@@ -33,11 +28,5 @@ def failed_build(check: BuildCheck, failure: BuildFailure) -> CheckResult:
         Status.BUILD_ERROR,
         failure.message,
         words=failure.words,
-        fingerprint=_first(_ERROR, failure.words) or failure.message,
+        fingerprint=first_error(failure.words) or failure.message,
     )
-
-
-def _first(pattern: re.Pattern[str], words: str) -> str:
-    """The first complaint without names and numbers, so that like complaints count as one."""
-    found = pattern.search(words)
-    return _QUOTED.sub("...", found[1])[:100] if found else ""

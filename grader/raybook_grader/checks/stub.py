@@ -2,23 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from functools import cache
 from pathlib import Path
 
 from ..literate.export import export
 from ..literate.markers import parse
-
-# Each branch succeeds at its first character, closed or not: no text makes this slow.
-_TOKEN = re.compile(
-    rb"""
-    (?P<comment> /\*.*?(?:\*/|\Z) | //(?:[^\n\\]|\\.)* )
-  | (?P<literal> "(?:[^"\\\n]|\\.)*"? | '(?:[^'\\\n]|\\.)*'? )
-  | (?P<space> \s+ )
-  | (?P<other> [^\s"'/]+ | / )
-    """,
-    re.DOTALL | re.VERBOSE,
-)
+from .essence import essence
 
 
 @cache
@@ -34,9 +23,4 @@ def is_stub(content: bytes, stub: str) -> bool:
     A file that still has both branches of a `TODO_` conditional is no stub: what counts is what
     the compiler makes of it, and without a definition that is the first branch.
     """
-    return _essence(content) == _essence(stub.encode())
-
-
-def _essence(text: bytes) -> bytes:
-    kept = (m["literal"] or m["other"] for m in _TOKEN.finditer(text))
-    return b"".join(part for part in kept if part)
+    return essence(content) == essence(stub.encode())

@@ -7,17 +7,15 @@ of the box, has passed too (`confirm`). Whoever forges the output gains nothing 
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 
 from ..course import UnitCheck
 from .result import JUDGED, CheckResult, Status, conclude
 from .subject import Subject
+from .unity import read_unity
 from .words import clean
 
-_SUMMARY = re.compile(r"^(\d+) Tests (\d+) Failures (\d+) Ignored", re.MULTILINE)
-_FAILURE = re.compile(r"^[^\n:]*:\d+:(\w+):FAIL(?::\s*([^\n]*))?$", re.MULTILINE)
 _SHOWN = 5
 
 
@@ -29,18 +27,19 @@ def check_unit(check: UnitCheck, subject: Subject) -> CheckResult:
     source = subject.assignment.folder / check.tests
     result = subject.run(subject.workshop.unit_tests(subject.module, source), [])
     words = clean(result.stdout + result.stderr)
-    summary = _SUMMARY.search(words)
-    failures = [f"{name}: {why}" if why else name for name, why in _FAILURE.findall(words)]
-    if summary and result.ok and not failures:
-        return conclude(check, Status.PASSED, f"{summary[1]} tests passed", words=words)
-    told = f"{summary[2]} of {summary[1]} tests fail" if summary else "the tests stopped half way"
+    tests = read_unity(words)
+    if tests.count is not None and result.ok and not tests.failures:
+        return conclude(check, Status.PASSED, f"{tests.count} tests passed", words=words)
+    told = "the tests stopped half way"
+    if tests.count is not None:
+        told = f"{tests.failed} of {tests.count} tests fail"
     return conclude(
         check,
         Status.FAILED,
         told,
-        cases=tuple(failures[:_SHOWN]),
+        cases=tuple(map(str, tests.failures[:_SHOWN])),
         words=words,
-        fingerprint=failures[0].split(":")[0] if failures else told,
+        fingerprint=tests.failures[0].name if tests.failures else told,
     )
 
 

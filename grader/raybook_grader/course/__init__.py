@@ -14,6 +14,7 @@ from .model import (
     StatisticsCheck,
     UnitCheck,
 )
+from .pictures import PublicPicture
 
 __all__ = [
     "Assignment",
@@ -24,8 +25,12 @@ __all__ = [
     "ImageCheck",
     "Limits",
     "ProbeCheck",
+<<<<<<< HEAD
     "RobustCheck",
     "StatisticsCheck",
+=======
+    "PublicPicture",
+>>>>>>> b6130c2 (The student's loop: make check, watch, hint and debug, here and in the handout)
     "UnitCheck",
     "load_course",
 ]

@@ -21,6 +21,7 @@ from .model import (
     StatisticsCheck,
     UnitCheck,
 )
+from .pictures import read_pictures, read_resolution
 from .table import Table
 
 NAME = "Raybook"
@@ -75,6 +76,7 @@ def _load(root: Path, file: Path) -> Assignment:
         checks=tuple(
             _check(root, file.parent, check) for check in table.tables("check", "check {}".format)
         ),
+        pictures=read_pictures(root, table),
     )
     limits.finish()
     table.finish()
@@ -154,19 +156,11 @@ def _image(root: Path, folder: Path, table: Table) -> Check:
         name=table.text("name"),
         points=table.number("points"),
         scene=table.path("scene", root),
-        resolution=_resolution(table),
+        resolution=read_resolution(table),
         spp=table.whole("spp", 1),
         seeds=table.whole("seeds", 2),
         hidden=table.flag("hidden"),
     )
-
-
-def _resolution(table: Table) -> tuple[int, int]:
-    text = table.text("resolution")
-    match = re.fullmatch(r"([1-9]\d{0,4})x([1-9]\d{0,4})", text)
-    if not match:
-        raise table.fault("resolution", f"is {text!r}", "width and height, like 128x128")
-    return int(match[1]), int(match[2])
 
 
 _KINDS: dict[str, Callable[[Path, Path, Table], Check]] = {

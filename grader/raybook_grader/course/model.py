@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from .pictures import PublicPicture
+
 
 @dataclass(frozen=True)
 class Limits:
@@ -119,6 +121,7 @@ class Assignment:
     todos: tuple[str, ...]
     limits: Limits
     checks: tuple[Check, ...]
+    pictures: tuple[PublicPicture, ...] = ()
 
     @property
     def is_graded(self) -> bool:

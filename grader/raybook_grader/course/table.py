@@ -44,6 +44,11 @@ class Table:
             raise self.fault(key, f"is {value!r}", expected)
         return value
 
+    def has(self, key: str) -> bool:
+        """Whether a key that may be left out is there."""
+        self._known.add(key)
+        return key in self._values
+
     def text(self, key: str, default: str | None = None) -> str:
         value = self.take(key, str, "text that is not empty", default)
         if not value.strip():

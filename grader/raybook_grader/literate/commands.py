@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
+from ..errors import BadInput
+from ..expected.ship import expected_files
 from .check import check, load_assignments
 from .export import export
 from .handout import HandoutError, LeakError, write_handout
@@ -90,7 +92,13 @@ def run_leaks(arguments: argparse.Namespace) -> int:
 
 def run_handout(arguments: argparse.Namespace) -> int:
     """Write the student edition."""
-    report = write_handout(arguments.root, arguments.out, arguments.assignment, arguments.reveal)
+    report = write_handout(
+        arguments.root,
+        arguments.out,
+        arguments.assignment,
+        arguments.reveal,
+        lambda selection: expected_files(arguments.root, selection),
+    )
     for name in report.left_out:
         print(f"warning: {name} is not in git, so it is not handed out", file=sys.stderr)
     print(f"{report.out}: {report.files} files, no leak")
@@ -109,7 +117,7 @@ def guarded(handler: Handler) -> Handler:
         except LeakError as fault:
             print(f"{fault}\nnothing written: the edition would leak", file=sys.stderr)
             return 1
-        except (HandoutError, FileNotFoundError, ValueError) as fault:
+        except (HandoutError, BadInput, FileNotFoundError, ValueError) as fault:
             return _bad_usage(str(fault))
 
     return run

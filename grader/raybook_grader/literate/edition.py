@@ -22,6 +22,14 @@ HANDOUT_FOLDER = "assignments/handout/"
 _VERBATIM = re.compile(
     r"scenes/.+|\.setup/(?!requirements)[^/]+|\.clang-format|\.gitignore|(LICEN[CS]E|COPYING)[^/]*"
 )
+# The student's tools: the part of the grader's package that students run too.
+_TOOLS = re.compile(
+    r"grader/(raybook_grader/(?:(?:__init__|errors|files|handed_out)\.py|(?:student|course)/.+"
+    r"|checks/(?:__init__|artefacts|diagnostics|essence|unity|words)\.py"
+    r"|judge/(?:__init__|bias|differences|display|evidence|exr|findings|pixels|reference|refusal"
+    r"|thresholds|tiles|viewing)\.py))"
+)
+_TOOLS_FOLDER = "tools"
 _OF_ASSIGNMENT = re.compile(r"assignment\.toml|test_\w+\.c|handout\.md|hints\.md")
 
 
@@ -101,6 +109,8 @@ def _edition_file(
         return [EditionFile(name, path, text.encode())]
     if name.startswith(f"{SOURCE_FOLDER}/") or _VERBATIM.fullmatch(name):
         return [EditionFile(name, path)]
+    if tool := _TOOLS.fullmatch(name):
+        return [EditionFile(f"{_TOOLS_FOLDER}/{tool[1]}", path)]
     folder, _, base = name.rpartition("/")
     public = any(a.folder == folder and a.number in selection.assignments for a in assignments)
     if not public or not _OF_ASSIGNMENT.fullmatch(base):

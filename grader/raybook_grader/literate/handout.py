@@ -8,17 +8,19 @@ from __future__ import annotations
 
 import shutil
 import tempfile
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from .check import load_sound
+from ..handed_out import ABSENT, MARKER_FILE, HandedOut, digest
+from .check import Assignment, load_sound
 from .edition import EditionFile, Selection, select, student_edition
 from .leaks import ScanReport, scan
 from .listing import list_files
 from .secrets import find_secrets
 
-MARKER_FILE = ".raybook-handout"
+MakeMore = Callable[[Selection], Sequence[EditionFile]]
+"""What an edition holds beside the files of the checkout: made for it, such as pictures."""
 
 
 class HandoutError(Exception):
@@ -44,7 +46,11 @@ class HandoutReport:
 
 
 def write_handout(
-    root: Path, out: Path, assignment: str | None = None, reveal: Collection[str] = ()
+    root: Path,
+    out: Path,
+    assignment: str | None = None,
+    reveal: Collection[str] = (),
+    make_more: MakeMore | None = None,
 ) -> HandoutReport:
     """Write the student edition of the checkout `root` to the folder `out`.
 
@@ -65,12 +71,13 @@ def write_handout(
     except ValueError as fault:
         raise HandoutError(str(fault)) from None
     _require_source(edition, root)
+    edition += make_more(selection) if make_more else []
     names = listing.files + listing.left_out  # what git doesn't know yet is no less a secret
     secrets = find_secrets(tree, names, edition, selection.todos(assignments))
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=out.parent, prefix=f".{out.name}.") as scratch:
         draft = Path(scratch, out.name)
-        _write(draft, edition, selection)
+        _write(draft, edition, handed_out(selection, assignments, edition))
         report = scan(draft, secrets)
         if not report.clean:
             raise LeakError(report)
@@ -96,7 +103,21 @@ def _require_source(edition: Iterable[EditionFile], root: Path) -> None:
         raise HandoutError(f"{root}/src: git tracks no file there; expected a committed source")
 
 
-def _write(folder: Path, edition: Iterable[EditionFile], selection: Selection) -> None:
+def handed_out(
+    selection: Selection, assignments: Iterable[Assignment], edition: Iterable[EditionFile]
+) -> HandedOut:
+    """What the edition says of itself; its stubs are those of every assignment, known or not."""
+    files = {file.name: file for file in edition}
+    stubs = {
+        (assignment.number, path): digest(files[path].read()) if path in files else ABSENT
+        for assignment in assignments
+        if assignment.number not in selection.revealed
+        for path in assignment.owned
+    }
+    return HandedOut(selection.assignments, selection.revealed, stubs)
+
+
+def _write(folder: Path, edition: Iterable[EditionFile], handed: HandedOut) -> None:
     folder.mkdir()
     for file in edition:
         path = folder / file.name
@@ -105,7 +126,7 @@ def _write(folder: Path, edition: Iterable[EditionFile], selection: Selection) -
             shutil.copy(file.source, path)
         else:
             path.write_bytes(file.content)
-    (folder / MARKER_FILE).write_text(_marker_text(selection), encoding="utf-8")
+    (folder / MARKER_FILE).write_text(handed.text(), encoding="utf-8")
 
 
 def _put_in_place(draft: Path, out: Path, aside: Path) -> None:
@@ -118,12 +139,3 @@ def _put_in_place(draft: Path, out: Path, aside: Path) -> None:
     except OSError:
         aside.rename(out)
         raise
-
-
-def _marker_text(selection: Selection) -> str:
-    handed_out = " ".join(sorted(selection.assignments))
-    revealed = " ".join(sorted(selection.revealed)) or "none"
-    return (
-        "The student edition of Raybook. `make handout` may replace this folder.\n"
-        f"assignments: {handed_out}\nsolutions: {revealed}\n"
-    )

@@ -169,10 +169,10 @@ def test_fills_an_empty_folder(root: Path, tmp_path: Path) -> None:
     assert names(write_handout(root, tmp_path / "out").out) == EVERYBODY | SECOND
 
 
-def refused(root: Path, out: Path, reason: str, **options: str) -> None:
+def refused(root: Path, out: Path, reason: str, assignment: str | None = None) -> None:
     before = {path: path.read_bytes() for path in out.parent.rglob("*") if path.is_file()}
     with pytest.raises(HandoutError, match=reason):
-        write_handout(root, out, **options)
+        write_handout(root, out, assignment)
     after = {path: path.read_bytes() for path in out.parent.rglob("*") if path.is_file()}
     assert after == before
 
