@@ -78,7 +78,8 @@ def _tell_picture(finding: Finding, shown: ShownPicture, console: Console, alway
     judged = shown.judged
     if always or not judged.is_right:
         if console.is_terminal and console.color_system == "truecolor":
-            for row in side_by_side(panes(judged), min(console.width - 3, _PICTURE_COLUMNS)):
+            for row in side_by_side(panes(judged), min(console.width - 6, _PICTURE_COLUMNS)):
+                console.print("    ", end="")
                 console.print(row, end="\n" if isinstance(row, Text) else "")
         kinds = ", ".join(name for name, _ in panes(judged))
         console.print(f"    {shown.sheet}: {kinds}")
