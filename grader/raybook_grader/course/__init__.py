@@ -1,5 +1,6 @@
 """The course as the grader sees it: its assignments, what they own and how they are checked."""
 
+from .artefacts import ArtefactCheck
 from .load import load_course
 from .model import (
     Assignment,
@@ -17,6 +18,7 @@ from .model import (
 from .pictures import PublicPicture
 
 __all__ = [
+    "ArtefactCheck",
     "Assignment",
     "BuildCheck",
     "Check",
@@ -25,12 +27,9 @@ __all__ = [
     "ImageCheck",
     "Limits",
     "ProbeCheck",
-<<<<<<< HEAD
+    "PublicPicture",
     "RobustCheck",
     "StatisticsCheck",
-=======
-    "PublicPicture",
->>>>>>> b6130c2 (The student's loop: make check, watch, hint and debug, here and in the handout)
     "UnitCheck",
     "load_course",
 ]

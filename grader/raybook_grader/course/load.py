@@ -8,6 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..errors import BadInput
+from .artefacts import ArtefactCheck, read_artefact
 from .model import (
     Assignment,
     BuildCheck,
@@ -91,17 +92,28 @@ def _verify(root: Path, table: Table, assignment: Assignment) -> None:
         raise table.fault("points", f"is {assignment.points:g}", f"the checks' sum, {total:g}")
     if not assignment.owned:
         raise table.fault("owned", "is empty", "at least one file of the module")
-    for path in assignment.owned:
+    for path in assignment.sources:
         table.check_path("owned", path, root)
     names = [check.name for check in assignment.checks]
     for name in names:
         if names.count(name) > 1:
             raise table.fault("check", f"two are called {name!r}", "a name of its own for each")
     kinds = [type(check) for check in assignment.checks]
+    if set(kinds) == {ArtefactCheck}:
+        _verify_artefacts(table, assignment)
+        return
+    if ArtefactCheck in kinds or assignment.sources != assignment.owned:
+        raise table.fault("check", "of kind 'artefact' and others", "either, not both")
     if kinds.count(BuildCheck) != 1:
         raise table.fault("check", f"{kinds.count(BuildCheck)} of kind 'build'", "exactly one")
     if UnitCheck in kinds and not any(issubclass(kind, ProbeCheck) for kind in kinds):
         raise table.fault("check", "of kind 'unit' alone", "a 'probe' beside it that confirms it")
+
+
+def _verify_artefacts(table: Table, assignment: Assignment) -> None:
+    files = [check.file for check in assignment.checks if isinstance(check, ArtefactCheck)]
+    if assignment.sources or set(files) != set(assignment.owned):
+        raise table.fault("owned", f"is {list(assignment.owned)}", f"the checks' files, {files}")
 
 
 def _check(root: Path, folder: Path, table: Table) -> Check:
@@ -171,4 +183,5 @@ _KINDS: dict[str, Callable[[Path, Path, Table], Check]] = {
     "robust": _probe(RobustCheck),
     "cost": _cost,
     "image": _image,
+    "artefact": lambda root, folder, table: read_artefact(table),
 }

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from .artefacts import ArtefactCheck
 from .pictures import PublicPicture
 
 
@@ -104,7 +105,7 @@ class ImageCheck:
     hidden: bool = False
 
 
-Check = BuildCheck | UnitCheck | ProbeCheck | RobustCheck | CostCheck | ImageCheck
+Check = BuildCheck | UnitCheck | ProbeCheck | RobustCheck | CostCheck | ImageCheck | ArtefactCheck
 
 
 @dataclass(frozen=True)
@@ -124,6 +125,11 @@ class Assignment:
     pictures: tuple[PublicPicture, ...] = ()
 
     @property
+    def sources(self) -> tuple[str, ...]:
+        """The owned files that are compiled; the others are made by tools."""
+        return tuple(path for path in self.owned if path.startswith("src/"))
+
+    @property
     def is_graded(self) -> bool:
         """False while no check is declared: such an assignment is left out, with a note."""
         return bool(self.checks)
@@ -136,6 +142,11 @@ class Course:
     root: Path
     name: str
     assignments: tuple[Assignment, ...]
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """All files of all assignments that students write."""
+        return tuple(path for assignment in self.assignments for path in assignment.sources)
 
     def assignment(self, number: str) -> Assignment:
         """The assignment of that number; KeyError when there is none."""

@@ -46,7 +46,8 @@ class Keys:
             self._grader,
             self._kit.fingerprint,
             *(_content(path, assignment.folder) for path in used),
-            *(stub_text(root, path) for path in assignment.owned),
+            *(stub_text(root, path) for path in assignment.sources),
+            *([] if assignment.sources else self._course.sources),
             *(scene_fingerprint(root, scene) for scene in sorted(scenes)),
         ])  # fmt: skip
 

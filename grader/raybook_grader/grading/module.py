@@ -6,11 +6,12 @@ import traceback
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ..checks.artefact import check_artefact
 from ..checks.build import check_build, failed_build
 from ..checks.cost import check_cost
 from ..checks.image import check_image
 from ..checks.probe import check_probe
-from ..checks.program import BuildFailure, Workshop
+from ..checks.program import BuildFailure, HarnessFault, Workshop
 from ..checks.reference import References
 from ..checks.result import CheckResult, Status, conclude
 from ..checks.robust import check_robust
@@ -20,6 +21,7 @@ from ..checks.subject import Stopped, Subject
 from ..checks.unit import check_unit, confirm
 from ..checks.words import clean
 from ..course import (
+    ArtefactCheck,
     Assignment,
     BuildCheck,
     Check,
@@ -56,6 +58,8 @@ class ModuleGrader:
             return missing("; ".join(refusals))
         if not files:
             return missing(f"{', '.join(assignment.owned)}: not in the submission")
+        if not assignment.sources:
+            return self._judge_artefacts(assignment, files)
         root = self.workshop.course.root
         stubs = {path: stub_text(root, path) for path in assignment.owned}
         if all(is_stub(file.content, stubs[path]) for path, file in files.items()):
@@ -63,6 +67,14 @@ class ModuleGrader:
         # What was not handed in of a module with several files is still its stub.
         contents = {p: files[p].content if p in files else stubs[p].encode() for p in stubs}
         return self._judge(assignment, contents)
+
+    def _judge_artefacts(
+        self, assignment: Assignment, files: Mapping[str, SubmittedFile]
+    ) -> ModuleResult:
+        contents = {path: file.content for path, file in files.items()}
+        sources = self.workshop.course.sources
+        checks = [check for check in assignment.checks if isinstance(check, ArtefactCheck)]
+        return from_checks([check_artefact(c, contents.get(c.file), sources) for c in checks])
 
     def _judge(self, assignment: Assignment, contents: Mapping[str, bytes]) -> ModuleResult:
         try:
@@ -104,6 +116,8 @@ class ModuleGrader:
                 return check_cost(check, subject)
             case ImageCheck():
                 return check_image(check, subject, self.references)
+            case ArtefactCheck():
+                raise HarnessFault("an artefact is no module: it is judged without a program")
 
 
 def _unbuilt(check: Check, failure: BuildFailure) -> CheckResult:
