@@ -10,6 +10,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from .assignment_table import with_table
 from .check import Assignment
 from .export import export
 from .public_toml import public_toml
@@ -92,6 +93,11 @@ def student_edition(
         if name.startswith(HANDOUT_FOLDER):
             ours = name.removeprefix(HANDOUT_FOLDER)
             files[ours] = EditionFile(ours, tree.root / name)
+    if readme := files.get("README.md"):
+        text = with_table(
+            readme.read().decode(), [a for a in assignments if a.number in selection.assignments]
+        )
+        files["README.md"] = EditionFile(readme.name, readme.source, text.encode())
     return sorted(files.values(), key=lambda file: file.name)
 
 

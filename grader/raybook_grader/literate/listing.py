@@ -9,6 +9,8 @@ from pathlib import Path
 
 # A checkout without git: these folders, and their kind, hold nothing that a person wrote.
 _JUNK_FOLDERS = {"build", "__pycache__"}
+# Of the folders that begin with a dot: the set-up, and what the student edition has at its top.
+_OURS = {".setup", ".ci", ".vscode", ".devcontainer", ".github"}
 _JUNK_SUFFIXES = ("~", ".orig", ".rej", ".swp", ".pyc")
 
 
@@ -53,12 +55,10 @@ def _git(root: Path, *arguments: str) -> bytes:
 def _walk(root: Path) -> tuple[str, ...]:
     names: list[str] = []
     for folder, subfolders, files in os.walk(root):
-        top = Path(folder) == root
-        subfolders[:] = [s for s in subfolders if not _is_junk_folder(s, top)]
+        subfolders[:] = [s for s in subfolders if not _is_junk_folder(s)]
         names += [(Path(folder) / f).relative_to(root).as_posix() for f in files]
     return tuple(sorted(name for name in names if not name.endswith(_JUNK_SUFFIXES)))
 
 
-def _is_junk_folder(name: str, top: bool) -> bool:
-    dot_wanted = top and name in (".setup", ".ci")
-    return name in _JUNK_FOLDERS or (name.startswith(".") and not dot_wanted)
+def _is_junk_folder(name: str) -> bool:
+    return name in _JUNK_FOLDERS or (name.startswith(".") and name not in _OURS)

@@ -18,7 +18,7 @@ from .check import Checker
 from .debug import debug
 from .findings import Finding, State
 from .hints import hint_again, next_hint, overview
-from .make import DoesNotBuild
+from .make import DoesNotBuild, Maker
 from .project import Expected, Project, read_assignments
 from .shipped import Shipped
 from .tell import open_console, tell_all, tell_one
@@ -137,6 +137,22 @@ def run_debug(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def run_report(arguments: argparse.Namespace) -> int:
+    """report.md as HTML and PDF, with pictures and timings of the student's own build."""
+    from .report.write import write_report  # its libraries are slow to load
+
+    project = open_project(arguments.root)
+    program = Maker(project.root).release()
+    written, reason = write_report(
+        project.root, program, lambda: Checker.of(project).check(project.assignments)
+    )
+    for file in written:
+        print(file)
+    if reason:
+        print(reason, file=sys.stderr)
+    return 1 if reason else 0
+
+
 def _parser() -> argparse.ArgumentParser:
     top = argparse.ArgumentParser(prog="raybook", description="The student's tools.")
     top.add_argument("--root", type=Path, default=Path.cwd(), help="the project's folder")
@@ -150,6 +166,7 @@ def _parser() -> argparse.ArgumentParser:
     debugged = _command(commands, "debug", run_debug)
     debugged.add_argument("--scene", default="")
     debugged.add_argument("--pixel", default="", metavar="X,Y")
+    _command(commands, "report", run_report)
     return top
 
 

@@ -44,6 +44,11 @@ class Maker:
         paths = [self.root / path for path in built]
         return Programs(self.root / renderer, dict(zip(tests, paths, strict=True)))
 
+    def release(self) -> Path:
+        """The renderer as `make render` builds it, up to date. Raises `DoesNotBuild`."""
+        said = self._make("build/meshes/done", "build", "CHECK=")
+        return self.root / said.splitlines()[-1]
+
     def compiler_words(self, source: Path, path: str) -> tuple[bool, str]:
         """Whether ``source``, in the place of the file ``path``, compiles; what is said of it."""
         beside = ["-iquote", str(Path(path).parent)]
