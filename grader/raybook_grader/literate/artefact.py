@@ -21,6 +21,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from .git_history import UnreadableHistory, git_objects
+
 # Pictures and fonts: compressed, so their bytes hold no text.
 _NO_TEXT = (b"\x89PNG", b"\xff\xd8\xff", b"v/1\x01", b"GIF8", b"wOFF", b"wOF2")
 _DECOMPRESS = {b"\x1f\x8b": gzip.decompress, b"BZh": bz2.decompress, b"\xfd7zXZ": lzma.decompress}
@@ -65,10 +67,18 @@ def documents(path: Path) -> Iterator[Document]:
         return
     for file in sorted(path.rglob("*")):
         if file.name == ".git":
-            name = file.relative_to(path).as_posix()
-            yield Document(name, b"", unread="a git repository, whose history is not scanned")
+            yield from _history(file.relative_to(path).as_posix(), file.parent)
         elif file.is_file() and ".git" not in file.relative_to(path).parts:
             yield from _read(file.relative_to(path).as_posix(), file.read_bytes())
+
+
+def _history(name: str, folder: Path) -> Iterator[Document]:
+    """All versions of all files of a repository, and its messages."""
+    try:
+        for kind, content in git_objects(folder):
+            yield from _read(f"{name}!{kind}", content)
+    except (UnreadableHistory, OSError) as fault:
+        yield Document(name, b"", unread=str(fault))
 
 
 def _read(name: str, data: bytes) -> Iterator[Document]:
