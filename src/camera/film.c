@@ -19,27 +19,11 @@ struct film film_make(int width, int height, bool with_aovs)
 
 void film_add(struct film_pixel *pixel, rgb radiance, float weight)
 {
-    double w = (double)weight, luminance = (double)rgb_luminance(radiance);
-    pixel->sum[0] += w * (double)radiance.r;
-    pixel->sum[1] += w * (double)radiance.g;
-    pixel->sum[2] += w * (double)radiance.b;
-    pixel->weight += w;
-    pixel->samples++;
+    double luminance = (double)rgb_luminance(radiance);
     double from_mean = luminance - pixel->mean;
-    pixel->mean += from_mean / pixel->samples;
+    pixel_add(&pixel->sums, radiance, weight);
+    pixel->mean += from_mean / pixel->sums.samples;
     pixel->spread += from_mean * (luminance - pixel->mean);
-}
-
-/* Weights below zero (Mitchell) may sum to nearly nothing when the samples are
- * few; the pixel's value is then taken from their number. */
-static rgb value(const struct film_pixel *p)
-{
-    double weight = p->weight;
-    if (!(weight > 0.1 * p->samples))
-        weight = p->samples;
-    double k = p->samples > 0 ? 1.0 / weight : 0.0;
-    return rgb_make((float)(p->sum[0] * k), (float)(p->sum[1] * k),
-                    (float)(p->sum[2] * k));
 }
 
 static size_t index_of(const struct film *film, int x, int y)
@@ -54,14 +38,14 @@ struct image film_develop(const struct film *film, int x0, int y0, int x1,
     rgb *out = image.pixels;
     for (int y = y0; y < y1; y++)
         for (int x = x0; x < x1; x++)
-            *out++ = value(&film->pixels[index_of(film, x, y)]);
+            *out++ = pixel_value(&film->pixels[index_of(film, x, y)].sums);
     return image;
 }
 
 float film_aov(const struct film *film, int x, int y, int channel)
 {
     size_t i = index_of(film, x, y);
-    uint32_t samples = film->pixels[i].samples;
+    uint32_t samples = film->pixels[i].sums.samples;
     double sum = film->aovs[AOV_CHANNELS * i + (size_t)channel];
     return samples > 0 ? (float)(sum / samples) : 0.0f;
 }
@@ -69,7 +53,7 @@ float film_aov(const struct film *film, int x, int y, int channel)
 float film_variance(const struct film *film, int x, int y)
 {
     const struct film_pixel *p = &film->pixels[index_of(film, x, y)];
-    double n = p->samples;
+    double n = p->sums.samples;
     return n > 1.0 ? (float)(p->spread / (n - 1.0) / n) : 0.0f;
 }
 

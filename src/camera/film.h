@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "base/rgb.h"
+#include "camera/pixel_sampling.h"
 #include "image/image.h"
 
 /* Extra channels that a film may carry, each the mean of a pixel's samples.
@@ -20,14 +21,11 @@ enum {
 };
 extern const char *const aov_channel_names[AOV_CHANNELS];
 
-/* Sums are in double: at 2^24 samples a float would have lost the last ones.
- * One thread at a time works on a pixel; different pixels are independent. */
+/* One thread at a time works on a pixel; different pixels are independent. */
 struct film_pixel {
-    double sum[3];       /* of weight x radiance */
-    double weight;       /* of the filter's weights, one on average */
+    struct pixel_sums sums;
     double mean, spread; /* of luminance: running mean, sum of squared
                             deviations (B. Welford, Technometrics 4(3), 1962) */
-    uint32_t samples;
 };
 
 struct film {
@@ -39,12 +37,11 @@ struct film {
 /* A film without samples; release with film_free. */
 struct film film_make(int width, int height, bool with_aovs);
 
-/* weight: the filter's, one on average. */
+/* One more sample; its weight is pixel_sample's. */
 void film_add(struct film_pixel *pixel, rgb radiance, float weight);
 
 /* The window of the film from (x0, y0) up to but without (x1, y1) as an image
- * that the caller owns: each pixel the weighted mean of its samples, black if
- * none. */
+ * that the caller owns: each pixel's pixel_value. */
 struct image film_develop(const struct film *film, int x0, int y0, int x1,
                           int y1);
 

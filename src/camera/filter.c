@@ -54,7 +54,7 @@ struct filter filter_make(const struct film_settings *film)
     struct filter f = {film->filter, film->filter_radius,
                        film->alpha,  film->b,
                        film->c,      {0.0f},
-                       1.0f};
+                       1.0f,         1.0f};
     double sum = 0.0, signed_sum = 0.0, so_far[FILTER_CELLS + 1] = {0.0};
     for (int i = 0; i < FILTER_CELLS; i++) {
         double value = filter_value(&f, cell_place(&f, (float)i + 0.5f));
@@ -65,6 +65,7 @@ struct filter filter_make(const struct film_settings *film)
     for (int i = 0; i <= FILTER_CELLS; i++)
         f.cdf[i] = (float)(so_far[i] / sum);
     f.mass = (float)(sum / signed_sum);
+    f.integral = (float)(signed_sum * 2.0 * (double)f.radius / FILTER_CELLS);
     return f;
 }
 

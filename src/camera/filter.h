@@ -21,6 +21,7 @@ struct filter {
     float alpha, b, c;           /* gaussian; mitchell */
     float cdf[FILTER_CELLS + 1]; /* of |f|, over [-radius, radius] */
     float mass;                  /* integral of |f| over integral of f */
+    float integral;              /* of f, over [-radius, radius] */
 };
 
 struct filter filter_make(const struct film_settings *film);

@@ -7,6 +7,7 @@
 
 #include "camera/camera.h"
 #include "camera/filter.h"
+#include "camera/pixel_sampling.h"
 #include "integrators/intersection_test.h"
 #include "integrators/path.h"
 #include "integrators/tracer.h"
@@ -71,17 +72,18 @@ static void render_sample(const struct job *job, int x, int y, int sample)
     size_t pixel = (size_t)y * (size_t)job->film->width + (size_t)x;
     struct sampler sampler = start_sample(job, pixel, sample);
     struct tracer t = {job->scene, &sampler, job->options->log};
-    float weight;
-    vec2 offset = filter_sample(&job->filter, sampler_2d(&sampler), &weight);
-    vec2 place =
-        vec2_make((float)x + 0.5f + offset.x, (float)y + 0.5f + offset.y);
-    ray r = camera_ray(&job->camera, place);
-    struct ray_differential d = camera_differential(&job->camera, place);
+    struct sample_number number = {(uint32_t)sample,
+                                   (uint32_t)job->scene->integrator.spp,
+                                   (uint32_t)(sampler.pixel_key >> 32)};
+    struct pixel_sample at =
+        pixel_sample(&job->filter, x, y, number, sampler_2d(&sampler));
+    ray r = camera_ray(&job->camera, at.place);
+    struct ray_differential d = camera_differential(&job->camera, at.place);
     counters_mine.camera_rays++;
-    path_log_camera(t.log, (uint32_t)sample, place, &r);
+    path_log_camera(t.log, (uint32_t)sample, at.place, &r);
     rgb found = radiance(&t, &r, &d);
     path_log_result(t.log, found);
-    film_add(&job->film->pixels[pixel], found, weight);
+    film_add(&job->film->pixels[pixel], found, at.weight);
     t.log = NULL;
     if (job->film->aovs != NULL)
         add_aovs(&t, &r, &d, &job->film->aovs[AOV_CHANNELS * pixel]);

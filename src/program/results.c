@@ -78,7 +78,7 @@ static uint32_t samples_everywhere(const struct session *s)
     for (int y = s->window.y0; y < s->window.y1; y++)
         for (int x = s->window.x0; x < s->window.x1; x++) {
             size_t i = (size_t)y * (size_t)s->film.width + (size_t)x;
-            uint32_t n = s->film.pixels[i].samples;
+            uint32_t n = s->film.pixels[i].sums.samples;
             fewest = n < fewest ? n : fewest;
         }
     return fewest;
