@@ -53,6 +53,8 @@ NEE = profile("NEE", "light sampling")
 MIS = profile("MIS", "both, weighted (MIS)")
 INDEPENDENT, STRATIFIED, SOBOL = map(sampler, ("independent", "stratified", "sobol"))
 
+BOX: Json = {"film": {"filter": {"type": "box", "radius": 0.5}}}
+
 # Through the middles of the pixels, so that no edge's noise hides that of the light.
 MIDDLES = {"film": {"filter": {"type": "box", "radius": 0.001}}}
 RANDOM = {"sampler": {"type": "independent"}}
@@ -120,8 +122,8 @@ LOBE = "the lobe is a small part of the hemisphere; visible normals lose only wh
 CHEAPER = "dark paths end early, and what they cost goes into others"
 
 ROWS = (
-    Row(STRATIFIED, INDEPENDENT, "test/edges.json", 4, EDGE, spp=64),
-    Row(SOBOL, INDEPENDENT, "test/edges.json", 4, EDGE, spp=64),
+    Row(STRATIFIED, INDEPENDENT, "test/edges.json", 4, EDGE, BOX, spp=64),
+    Row(SOBOL, INDEPENDENT, "test/edges.json", 4, EDGE, BOX, spp=64),
     Row(STRATIFIED, INDEPENDENT, RECTS, 4, FEW_CELLS, ONE_BOUNCE, spp=64),
     Row(SOBOL, INDEPENDENT, RECTS, 4, FEW_CELLS, ONE_BOUNCE, spp=64),
     Row(NEE, RW, CORNELL, 50, SMALL_LAMP, ONE_BOUNCE),
