@@ -100,10 +100,11 @@ static void the_mean_place_is_the_centre(void)
             y += (double)(s.weight * s.place.y);
             weight += (double)s.weight;
         }
-    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.02, 20.5, x / weight, "x");
-    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.02, 10.5, y / weight, "y");
-    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.02, 1.0, weight / (4 * SIDE * SIDE),
-                                      "the weights are 1 on average");
+    TEST_ASSERT_FLOAT_WITHIN_MESSAGE(0.02f, 20.5f, (float)(x / weight), "x");
+    TEST_ASSERT_FLOAT_WITHIN_MESSAGE(0.02f, 10.5f, (float)(y / weight), "y");
+    TEST_ASSERT_FLOAT_WITHIN_MESSAGE(0.02f, 1.0f,
+                                     (float)(weight / (4 * SIDE * SIDE)),
+                                     "the weights are 1 on average");
 }
 
 static void expect_value(const struct pixel_sums *sums, float r, float g,
@@ -142,9 +143,9 @@ static void heavier_samples_count_more(void)
 {
     struct pixel_sums sums = {{0.0}, 0.0, 0};
     pixel_add(&sums, rgb_make(1.0f, 0.0f, 2.0f), 1.5f);
-    pixel_add(&sums, rgb_make(5.0f, 8.0f, 2.0f), 0.5f);
+    pixel_add(&sums, rgb_make(8.0f, 14.0f, 2.0f), 0.25f);
     expect_value(&sums, 2.0f, 2.0f, 2.0f,
-                 "1 with weight 1.5 and 5 with weight 0.5 are 2");
+                 "1 with weight 1.5 and 8 with weight 0.25 are 2");
 }
 
 int main(void)

@@ -34,15 +34,16 @@ struct pixel_sample pixel_sample(const struct filter *filter, int x, int y,
 //> pixel.add: Gather a sample
 void pixel_add(struct pixel_sums *sums, rgb radiance, float weight)
 {
-#ifndef TODO_pixel_value
+#ifndef TODO_pixel_add
     double w = (double)weight;
     sums->sum[0] += w * (double)radiance.r;
     sums->sum[1] += w * (double)radiance.g;
     sums->sum[2] += w * (double)radiance.b;
     sums->weight += w;
 #else
-    /* TODO(pixel_value): let the weight count. */
+    /* TODO(pixel_add): let the weight count, and gather the weights too. */
     (void)weight;
+    TODO_WARN("06 antialiasing", "every sample counts alike");
     sums->sum[0] += (double)radiance.r;
     sums->sum[1] += (double)radiance.g;
     sums->sum[2] += (double)radiance.b;
@@ -61,7 +62,7 @@ rgb pixel_value(const struct pixel_sums *sums)
 #else
     /* TODO(pixel_value): divide by what the weights add up to. */
     double total = sums->samples;
-    TODO_WARN("06 antialiasing", "every sample counts alike");
+    TODO_WARN("06 antialiasing", "dividing by the number of samples");
 #endif
     double k = sums->samples > 0 ? 1.0 / total : 0.0;
     return rgb_make((float)(sums->sum[0] * k), (float)(sums->sum[1] * k),

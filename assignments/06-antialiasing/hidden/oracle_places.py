@@ -20,15 +20,15 @@ from numpy.typing import NDArray
 from pixel_words import (
     KINDS,
     LAST_BELOW_ONE,
+    WORDS_OUT,
     Array,
     Filter,
     Floats,
     call_in_words,
-    number,
     place_records,
     rows_of,
-    wrong_length,
 )
+from raybook_grader.cases import number, wrong_length
 from raybook_grader.probes import Cases, Failure
 
 RANDOM_CASES = 6000
@@ -58,7 +58,7 @@ def make_cases(group: str, seed: int) -> Cases:
 
 
 def judge(cases: Cases, output: bytes) -> list[Failure]:
-    if faults := wrong_length(output, cases.count):
+    if faults := wrong_length(output, 4 * WORDS_OUT, cases.count):
         return faults
     context: Context = cases.context
     values, flags = rows_of(output)

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from pixel_words import Array, Filter, Floats, place_records, rows_of, wrong_length
+from pixel_words import WORDS_OUT, Array, Filter, Floats, place_records, rows_of
+from raybook_grader.cases import wrong_length
 from raybook_grader.probes import Cases, Failure
 from scipy.stats import chi2, norm
 
@@ -51,7 +52,7 @@ def make_cases(group: str, seed: int) -> Cases:
     rng = np.random.default_rng(seed)
     n = SAMPLES * len(FILTERS)
     which = np.repeat(np.arange(len(FILTERS)), SAMPLES)
-    # A fifth in the first column and as many in the first row: the film's border is no special case.
+    # A fifth in the first column, a fifth in the first row: the film's border is not special.
     x, y = rng.integers(0, 64, (2, n)) * (rng.random((2, n)) > 0.2)
     count = rng.choice(COUNTS, n)
     index = np.floor(rng.random(n) * count)
@@ -63,7 +64,7 @@ def make_cases(group: str, seed: int) -> Cases:
 
 
 def judge(cases: Cases, output: bytes) -> list[Failure]:
-    if faults := wrong_length(output, cases.count):
+    if faults := wrong_length(output, 4 * WORDS_OUT, cases.count):
         return faults
     context: Context = cases.context
     values, _ = rows_of(output)

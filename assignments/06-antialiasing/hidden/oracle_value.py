@@ -11,7 +11,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from pixel_words import Array, Floats, number, rows_of, wrong_length
+from pixel_words import WORDS_OUT, Array, Floats, rows_of
+from raybook_grader.cases import number, point, wrong_length
 from raybook_grader.probes import Cases, Failure
 
 PROMISED, UNIT = 1e-6, 2.0**-24
@@ -59,7 +60,7 @@ def make_cases(group: str, seed: int) -> Cases:
     for _ in range(RANDOM_PIXELS):
         parts.append(_pixel(_random(rng)))
         names.append(f"{len(parts[-1])} samples")
-    parts.append(_pixel(np.tile([0.1, 0.7, 300.0, 1.0], (MANY, 1))))
+    parts.append(_pixel(np.tile([0.1, 0.7, 300.0, 0.7], (MANY, 1))))
     names.append(f"{MANY} equal samples")
     parts.append(np.array([[9.0, 9, 9, 9, NONE]]))
     names.append("no samples, after another pixel")
@@ -86,7 +87,7 @@ def _random(rng: np.random.Generator) -> Array:
 
 def judge(cases: Cases, output: bytes) -> list[Failure]:
     """Of each pixel the value after its last sample; of small ones after each."""
-    if faults := wrong_length(output, cases.count):
+    if faults := wrong_length(output, 4 * WORDS_OUT, cases.count):
         return faults
     context: Context = cases.context
     values, counts = rows_of(output)
@@ -120,7 +121,7 @@ def _judge(records: Floats, value: Array, count: int) -> str:
     slack = PROMISED * np.array(of) + UNIT * np.abs(right) + 1e-37
     if (np.abs(value - np.array(right)) <= slack).all(axis=1).any():
         return ""
-    return f"{_told(samples)}: got {_color(value)}, expected {_color(np.array(right[0]))}"
+    return f"{_told(samples)}: got {point(value)}, expected {point(np.array(right[0]))}"
 
 
 def _divisors(total: float, n: int) -> list[float]:
@@ -142,13 +143,9 @@ def _kind(name: str, records: Floats) -> str:
     return "weights of both signs" if (weights < 0).any() else "weights"
 
 
-def _color(c: Array) -> str:
-    return "(" + ", ".join(number(v) for v in c) + ")"
-
-
 def _told(samples: Array) -> str:
     if len(samples) == 0:
         return "no sample was added"
-    shown = [f"{_color(s[:3])} with weight {number(s[3])}" for s in samples[:3]]
+    shown = [f"{point(s[:3])} with weight {number(s[3])}" for s in samples[:3]]
     more = f" and {len(samples) - 3} more" if len(samples) > 3 else ""
     return "added " + ", ".join(shown) + more

@@ -1,4 +1,4 @@
-"""What the oracles of assignment 06 share: filters, the layout of cases, and numbers in words.
+"""What the oracles of assignment 06 share: filters, the layout of the files, and calls in words.
 
 probe_pixel_sampling.c says how the files are laid out.
 """
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from raybook_grader.probes import Failure
+from raybook_grader.cases import number
 
 Array = NDArray[np.float64]
 Floats = NDArray[np.float32]
@@ -89,23 +89,6 @@ def call_in_words(filters: list[Filter], which: int, record: Floats) -> str:
         f"{filters[which].name}, pixel ({x}, {y}), sample {index} of {count}, random numbers "
         f"({number(record[10])}, {number(record[11])})"
     )
-
-
-def number(x: float) -> str:
-    """The shortest text that gives this float again."""
-    return str(np.float32(x)).removesuffix(".0")
-
-
-def wrong_length(output: bytes, count: int) -> list[Failure]:
-    """The failure of an output that has not one record a case; else none."""
-    record = 4 * WORDS_OUT
-    if len(output) == record * count:
-        return []
-    message = (
-        f"the probe wrote {len(output)} bytes, expected {record * count}: {record} for each of "
-        f"{count} cases"
-    )
-    return [Failure(len(output) // record, message, "output of a wrong length")]
 
 
 def rows_of(output: bytes) -> tuple[Array, NDArray[np.uint32]]:
