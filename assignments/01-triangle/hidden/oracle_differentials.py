@@ -151,7 +151,10 @@ def _wrong(
     got = f"got dp_du = {point(values[0])}, dp_dv = {point(values[1])}" if true else "got false"
     exact = _exact(context, case)
     if flags & WROTE_ON_FALSE:
-        return "wrote on false", "returned false, but its results are not what they were before"
+        return (
+            "wrote on false",
+            "expected both vectors as they were before, because it returned false",
+        )
     if context.unclear[case] and not (true and not np.isfinite(values).all()):
         return None
     if exact is None:

@@ -238,9 +238,12 @@ def _wrong(
         if error[1] > context.b_error[case, 1] or error[2] > context.b_error[case, 2]:
             return "wrong weights", expected
     if flags & CHANGED_RAY:
-        return "changed the ray", "the ray is not what it was before the call"
+        return "changed the ray", "expected the ray as it was before the call"
     if flags & WROTE_ON_MISS:
-        return "wrote on a miss", "returned false, but *hit is not what it was before the call"
+        return (
+            "wrote on a miss",
+            "expected *hit as it was before the call, because it returned false",
+        )
     return None
 
 

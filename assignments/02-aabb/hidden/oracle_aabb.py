@@ -220,13 +220,16 @@ def _wrong(
         return "false hit", f"expected no hit, {got}"
     if hit and exact is not None:
         if flags & NOT_WRITTEN:
-            return "not written", "returned true, but did not store both t_enter and t_exit"
+            return (
+                "not written",
+                "expected t_enter and t_exit, because it returned true; one is missing",
+            )
         if fault := _wrong_ends(context, case, exact, values):
             return fault, f"expected {_way(context, case, exact)}, {got}"
         if not context.t_min[case] <= values[0] <= values[1] <= context.t_max[case]:
             return "not in order", f"expected t_min <= t_enter <= t_exit <= t_max, {got}"
     if flags & CHANGED_INPUT:
-        return "changed its input", "the ray or the box is not what it was before the call"
+        return "changed its input", "expected the ray and the box as they were before the call"
     return None
 
 
