@@ -7,7 +7,9 @@ import gzip
 import io
 import json
 import lzma
+import os
 import shutil
+import subprocess
 import tarfile
 import zipfile
 from pathlib import Path
@@ -247,11 +249,58 @@ def test_broken_archive_is_not_clean(artefact: Path, secrets: Secrets) -> None:
     assert not report.clean
 
 
-def test_git_history_is_not_clean(artefact: Path, secrets: Secrets) -> None:
+def git(folder: Path, *words: str) -> None:
+    identity = ["-c", "user.name=t", "-c", "user.email=t@example.org"]
+    environment = {k: v for k, v in os.environ.items() if not k.startswith("GIT_")}
+    command = ["git", "-C", str(folder), *identity, *words]
+    subprocess.run(command, check=True, capture_output=True, env=environment)
+
+
+def commit(folder: Path, text: str, message: str, *options: str) -> None:
+    (folder / "a.c").write_text(text)
+    git(folder, "add", "a.c")
+    git(folder, "commit", "-q", "-m", message, *options)
+
+
+@pytest.mark.parametrize("then", ["later", "amended", "packed"])
+def test_leak_in_a_git_history(artefact: Path, secrets: Secrets, then: str) -> None:
+    sub = artefact / "sub"
+    sub.mkdir()
+    git(sub, "init", "-q")
+    commit(sub, f"{PLANTED}\n", "a solution")
+    commit(sub, "int a;\n", "and away", *(["--amend"] if then == "amended" else []))
+    if then == "packed":
+        git(sub, "gc", "-q")
+    [leak] = scan(artefact, secrets).leaks
+    assert (leak.secret.text, leak.line) == (SECRET, 1)
+    assert leak.artefact.startswith("sub/.git!blob ")
+
+
+def test_leak_in_a_commit_message(artefact: Path, secrets: Secrets) -> None:
+    git(artefact, "init", "-q")
+    commit(artefact, "int a;\n", f"try {SECRET}")
+    [leak] = scan(artefact, secrets).leaks
+    assert leak.artefact.startswith(".git!commit ")
+
+
+def test_a_clean_git_history(artefact: Path, secrets: Secrets) -> None:
+    git(artefact, "init", "-q")
+    commit(artefact, "int a;\n", "nothing to see")
+    assert scan(artefact, secrets).clean
+
+
+def test_a_history_that_is_not_all_there_is_not_clean(artefact: Path, secrets: Secrets) -> None:
+    git(artefact, "init", "-q")
+    commit(artefact, "int a;\n", "one")
+    (artefact / ".git/shallow").write_text("")
+    assert scan(artefact, secrets).unread == (".git: part of the history is not in it (shallow)",)
+
+
+def test_a_broken_git_repository_is_not_clean(artefact: Path, secrets: Secrets) -> None:
     (artefact / "sub/.git/objects").mkdir(parents=True)
     (artefact / "sub/.git/objects/a").write_bytes(b"packed")
-    report = scan(artefact, secrets)
-    assert report.unread == ("sub/.git: a git repository, whose history is not scanned",)
+    [reason] = scan(artefact, secrets).unread
+    assert reason.startswith("sub/.git: git: fatal:")
 
 
 def test_missing_artefact(tmp_path: Path, secrets: Secrets) -> None:
