@@ -107,7 +107,7 @@ def test_a_report_of_the_students_own_build(folder: Path) -> None:
         assert words in text
     listed = ["pdfimages", "-list", str(folder / "build/report/report.pdf")]
     images = subprocess.run(listed, capture_output=True, text=True, check=True).stdout.splitlines()
-    assert [line.split()[3:5] for line in images[2:]][0] == ["64", "64"]
+    assert next(line.split()[3:5] for line in images[2:]) == ["64", "64"]
 
 
 def test_the_template_asks_for_scenes_that_exist() -> None:
