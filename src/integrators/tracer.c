@@ -19,8 +19,8 @@ bool tracer_hit(const struct tracer *t, const ray *r,
 
 rgb vertex_emitted(const struct tracer *t, const struct vertex *v)
 {
-    bool front = vec3_dot(v->outgoing, v->surface.geometric_normal) > 0.0f;
-    if (v->object->light < 0 || !front)
+    if (v->object->light < 0)
         return rgb_grey(0.0f);
-    return t->scene->lights[v->object->light].radiance;
+    return light_emitted(&t->scene->lights[v->object->light],
+                         v->surface.geometric_normal, v->outgoing);
 }

@@ -1,6 +1,20 @@
-/* environment.c - see environment.h.
+/* environment.c - assignment 09: light from everywhere around.
  *
- * The picture is cut between the texel centres, not between the texels: in
+ * The contract is in environment.h. */
+#include "lights/environment.h"
+
+#include <stddef.h>
+
+#include "base/constants.h"
+#include "base/memory.h"
+#include "base/todo.h"
+#include "sampling/distribution.h"
+#include "sampling/warp.h"
+
+//> environment: Light from a map of all directions
+#ifndef TODO_environment
+//> environment.patches: Cut the map between its texel centres
+/* The picture is cut between the texel centres, not between the texels: in
  * such a patch the radiance is one bilinear blend of four texels.
  *
  *     . . . . . . . . . .    v = 0, a pole: above the first row of centres
@@ -19,11 +33,6 @@
  * the luminance itself, up to a factor. A place in a patch is (a, b) in the
  * unit square; a runs evenly with the azimuth, b with the cosine of theta, in
  * which equal steps are equal solid angles. */
-#include "lights/environment.h"
-
-#include "base/constants.h"
-#include "base/memory.h"
-#include "sampling/warp.h"
 
 /* Wraps in x, clamps in y; x at most one beyond the border. */
 static rgb texel(const struct image *image, int x, int y)
@@ -41,7 +50,55 @@ static void patch_texels(const struct image *image, int column, int row,
     for (int i = 0; i < 4; i++)
         corners[i] = texel(image, column + i % 2, row - 1 + i / 2);
 }
+//< environment.patches
 
+//> environment.place: Find where a direction falls
+static vec3 to_local(const struct environment *e, vec3 d)
+{
+    const float(*m)[4] = e->to_world.inverse;
+    return vec3_make(m[0][0] * d.x + m[0][1] * d.y + m[0][2] * d.z,
+                     m[1][0] * d.x + m[1][1] * d.y + m[1][2] * d.z,
+                     m[2][0] * d.x + m[2][1] * d.y + m[2][2] * d.z);
+}
+
+/* Where a direction falls: a patch, and how far across (a) and down (b). */
+struct place {
+    int column, row;
+    float a, b;
+};
+
+/* b is even in theta here, as in the image. atan2, not acos: near the poles z
+ * has lost the digits that x and y still have. */
+static struct place find_place(const struct image *image, vec3 local)
+{
+    float phi = atan2f(local.y, local.x);
+    float theta = atan2f(sqrtf(local.x * local.x + local.y * local.y), local.z);
+    float u = phi / (2.0f * PI) + (phi < 0.0f ? 1.0f : 0.0f);
+    float x = u * (float)image->width - 0.5f;
+    float y = theta / PI * (float)image->height + 0.5f;
+    int row = y < (float)image->height ? (int)y : image->height;
+    struct place p = {(int)floorf(x), row, x - floorf(x), y - (float)row};
+    return p;
+}
+//< environment.place
+
+//> environment.radiance: Blend the four texels around it
+static rgb mix(rgb from, rgb to, float amount)
+{
+    return rgb_add(rgb_scale(from, 1.0f - amount), rgb_scale(to, amount));
+}
+
+rgb environment_radiance(const struct environment *e, vec3 direction)
+{
+    rgb c[4];
+    struct place p = find_place(e->image, to_local(e, direction));
+    patch_texels(e->image, p.column, p.row, c);
+    rgb color = mix(mix(c[0], c[1], p.a), mix(c[2], c[3], p.a), p.b);
+    return rgb_scale(color, e->scale);
+}
+//< environment.radiance
+
+//> environment.powers: Weigh each patch by the light it sends
 static void patch_luminances(const struct image *image, int column, int row,
                              float corners[4])
 {
@@ -74,62 +131,36 @@ static void row_powers(const struct image *image, int row, float powers[])
         powers[column] = 0.25f * (c[0] + c[1] + c[2] + c[3]) * solid_angle;
     }
 }
+//< environment.powers
 
-struct environment environment_make(const struct image *image, float scale,
-                                    struct transform to_world)
+//> environment.table: Make the table
+struct environment_table {
+    struct distribution_2d patches; /* their powers */
+};
+
+struct environment_table *environment_table_make(const struct image *image)
 {
-    struct environment e = {image, scale, to_world, {0}};
+    struct environment_table *table = mem_alloc(1, sizeof *table);
     size_t width = (size_t)image->width, rows = (size_t)image->height + 1;
     float *powers = mem_alloc(width * rows, sizeof *powers);
     for (size_t row = 0; row < rows; row++)
         row_powers(image, (int)row, powers + row * width);
-    e.table = distribution_2d_make(powers, (uint32_t)width, (uint32_t)rows);
+    table->patches =
+        distribution_2d_make(powers, (uint32_t)width, (uint32_t)rows);
     mem_free(powers);
-    return e;
+    return table;
 }
 
-static vec3 to_local(const struct environment *e, vec3 d)
+void environment_table_free(struct environment_table *table)
 {
-    const float(*m)[4] = e->to_world.inverse;
-    return vec3_make(m[0][0] * d.x + m[0][1] * d.y + m[0][2] * d.z,
-                     m[1][0] * d.x + m[1][1] * d.y + m[1][2] * d.z,
-                     m[2][0] * d.x + m[2][1] * d.y + m[2][2] * d.z);
+    if (table == NULL)
+        return;
+    distribution_2d_free(&table->patches);
+    mem_free(table);
 }
+//< environment.table
 
-/* Where a direction falls: a patch, and how far across (a) and down (b). */
-struct place {
-    int column, row;
-    float a, b;
-};
-
-/* b is even in theta here, as in the image. atan2, not acos: near the poles z
- * has lost the digits that x and y still have. */
-static struct place find_place(const struct image *image, vec3 local)
-{
-    float phi = atan2f(local.y, local.x);
-    float theta = atan2f(sqrtf(local.x * local.x + local.y * local.y), local.z);
-    float u = phi / (2.0f * PI) + (phi < 0.0f ? 1.0f : 0.0f);
-    float x = u * (float)image->width - 0.5f;
-    float y = theta / PI * (float)image->height + 0.5f;
-    int row = y < (float)image->height ? (int)y : image->height;
-    struct place p = {(int)floorf(x), row, x - floorf(x), y - (float)row};
-    return p;
-}
-
-static rgb mix(rgb from, rgb to, float amount)
-{
-    return rgb_add(rgb_scale(from, 1.0f - amount), rgb_scale(to, amount));
-}
-
-rgb environment_radiance(const struct environment *e, vec3 direction)
-{
-    rgb c[4];
-    struct place p = find_place(e->image, to_local(e, direction));
-    patch_texels(e->image, p.column, p.row, c);
-    rgb color = mix(mix(c[0], c[1], p.a), mix(c[2], c[3], p.a), p.b);
-    return rgb_scale(color, e->scale);
-}
-
+//> environment.pdf: The density of a direction
 /* cos theta of a unit vector, with the digits that z lacks near the poles. */
 static double polar_cosine(vec3 d)
 {
@@ -155,10 +186,12 @@ float environment_pdf(const struct environment *e, vec3 direction)
     patch_luminances(e->image, p.column, p.row, c);
     float upper = c[0] + p.a * (c[1] - c[0]);
     float lower = c[2] + p.a * (c[3] - c[2]);
-    double total = e->table.rows.total;
+    double total = e->table->patches.rows.total;
     return total > 0.0 ? (float)((upper + b * (lower - upper)) / total) : 0.0f;
 }
+//< environment.pdf
 
+//> environment.sample: Pick a direction
 /* The local direction at (a, b) of a patch. */
 static vec3 patch_direction(const struct image *image, uint32_t column,
                             uint32_t row, vec2 at)
@@ -178,20 +211,51 @@ float environment_sample(const struct environment *e, vec2 random,
     uint32_t column, row;
     vec2 in_patch;
     float corners[4];
-    distribution_2d_pick(&e->table, random, &column, &row, &in_patch);
+    distribution_2d_pick(&e->table->patches, random, &column, &row, &in_patch);
     patch_luminances(e->image, (int)column, (int)row, corners);
     vec2 at = warp_bilinear(in_patch, corners);
     vec3 local = patch_direction(e->image, column, row, at);
     *direction = vec3_normalize(transform_direction(&e->to_world, local));
     return environment_pdf(e, *direction);
 }
-
-float environment_mean_luminance(const struct environment *e)
+//< environment.sample
+#else
+/* TODO(environment): what environment.h asks for: the radiance of a direction,
+ * a table, and with it a way to pick bright directions often. A good order is
+ * radiance first, then the table, pdf and sample together. Until then the sky
+ * has one colour, and directions are picked evenly, which is right for it. */
+rgb environment_radiance(const struct environment *e, vec3 direction)
 {
-    return e->scale * (float)(e->table.rows.total / (4.0 * (double)PI));
+    (void)direction;
+    TODO_WARN("09 environment",
+              "the sky has one colour, and all directions are as likely");
+    const struct image *image = e->image;
+    int middle = image->width / 2, row = image->height / 4;
+    return rgb_scale(image->pixels[row * image->width + middle], e->scale);
 }
 
-void environment_free(struct environment *e)
+struct environment_table *environment_table_make(const struct image *image)
 {
-    distribution_2d_free(&e->table);
+    (void)image;
+    return NULL;
 }
+
+void environment_table_free(struct environment_table *table)
+{
+    (void)table;
+}
+
+float environment_sample(const struct environment *e, vec2 random,
+                         vec3 *direction)
+{
+    *direction = warp_sphere(random);
+    return environment_pdf(e, *direction);
+}
+
+float environment_pdf(const struct environment *e, vec3 direction)
+{
+    (void)e;
+    return warp_sphere_pdf(direction);
+}
+#endif
+//< environment

@@ -3,6 +3,7 @@
 
 #include "base/constants.h"
 #include "lights/delta_lights.h"
+#include "lights/environment_map.h"
 #include "lights/mesh_light.h"
 #include "lights/rect_light.h"
 #include "lights/sphere_light.h"

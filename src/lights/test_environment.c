@@ -1,5 +1,5 @@
 /* test_environment.c - light from everywhere. */
-#include "lights/environment.h"
+#include "lights/environment_map.h"
 
 #include <stdio.h>
 

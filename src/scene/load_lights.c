@@ -1,6 +1,7 @@
 /* load_lights.c - all that shines in a scene file. */
 #include "base/constants.h"
 #include "base/memory.h"
+#include "lights/environment_map.h"
 #include "scene/load_parts.h"
 
 struct light *add_light(struct scene *scene, enum light_kind kind)
