@@ -38,6 +38,13 @@ static inline rgb rgb_scale(rgb a, float k)
     return rgb_make(a.r * k, a.g * k, a.b * k);
 }
 
+/* a for t = 0, b for t = 1; exactly a where the two are equal. */
+static inline rgb rgb_mix(rgb a, rgb b, float t)
+{
+    return rgb_make(a.r + t * (b.r - a.r), a.g + t * (b.g - a.g),
+                    a.b + t * (b.b - a.b));
+}
+
 static inline bool rgb_is_black(rgb a)
 {
     return a.r == 0.0f && a.g == 0.0f && a.b == 0.0f;

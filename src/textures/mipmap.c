@@ -5,45 +5,13 @@
 
 #include <stdint.h>
 
-const char *const texture_wrap_names[] = {"repeat", "clamp", "mirror", "black",
-                                          NULL};
+#include "base/todo.h"
+#include "textures/color_sum.h"
+#include "textures/ellipse.h"
 
-/* ---- means ---- */
-
-/* A sum of weighted colours, in double so that a mean keeps its digits. */
-struct color_sum {
-    double r, g, b, weight;
-};
-
-static void sum_add(struct color_sum *sum, rgb color, double weight)
-{
-    sum->r += weight * color.r;
-    sum->g += weight * color.g;
-    sum->b += weight * color.b;
-    sum->weight += weight;
-}
-
-static rgb sum_mean(const struct color_sum *sum)
-{
-    double k = 1.0 / sum->weight;
-    return rgb_make((float)(sum->r * k), (float)(sum->g * k),
-                    (float)(sum->b * k));
-}
-
-/* a for t = 0, b for t = 1; exactly a where the two are equal. */
-static rgb rgb_mix(rgb a, rgb b, float t)
-{
-    return rgb_make(a.r + t * (b.r - a.r), a.g + t * (b.g - a.g),
-                    a.b + t * (b.b - a.b));
-}
-
-/* ---- the pyramid ---- */
-
-static int half_size(int size)
-{
-    return size > 1 ? size / 2 : 1;
-}
-
+//> mipmap.pyramid: Build the smaller levels
+#ifndef TODO_mipmap_pyramid
+//> mipmap.pyramid.overlap: Measure how much two texels overlap
 /* A row of from texels and a row of to texels cover the same stretch. Let that
  * be from * to long: then a texel of the first row has the length to and one
  * of the second the length from, whole numbers all. This is how much two such
@@ -71,7 +39,9 @@ static struct span overlapped(int index, int from, int to)
     s.end = (int)((((int64_t)index + 1) * from + to - 1) / to);
     return s;
 }
+//< mipmap.pyramid.overlap
 
+//> mipmap.pyramid.mean: Take the mean of what a texel covers
 /* The mean of what the texel at column x, row y of a smaller image covers. */
 static rgb covered_mean(const struct image *from, const struct image *to, int x,
                         int y)
@@ -83,11 +53,17 @@ static rgb covered_mean(const struct image *from, const struct image *to, int x,
         for (int i = columns.first; i < columns.end; i++) {
             double width = (double)overlap(i, from->width, x, to->width);
             double height = (double)overlap(j, from->height, y, to->height);
-            sum_add(&sum,
-                    from->pixels[(size_t)j * (size_t)from->width + (size_t)i],
-                    width * height);
+            size_t at = (size_t)j * (size_t)from->width + (size_t)i;
+            color_sum_add(&sum, from->pixels[at], width * height);
         }
-    return sum_mean(&sum);
+    return color_sum_mean(&sum);
+}
+//< mipmap.pyramid.mean
+
+//> mipmap.pyramid.halve: Halve an image
+static int half_size(int size)
+{
+    return size > 1 ? size / 2 : 1;
 }
 
 static struct image half_image(const struct image *from)
@@ -100,130 +76,62 @@ static struct image half_image(const struct image *from)
                 covered_mean(from, &to, x, y);
     return to;
 }
+//< mipmap.pyramid.halve
+#endif
 
-struct mipmap mipmap_make(struct image image, enum texture_wrap wrap,
-                          bool whole)
+int mipmap_pyramid(struct image levels[MIPMAP_MAX_LEVELS])
 {
-    struct mipmap m = {{image}, 1, wrap};
-    const struct image *last = &m.levels[0];
-    while (whole && (last->width > 1 || last->height > 1)) {
-        m.levels[m.level_count] = half_image(last);
-        last = &m.levels[m.level_count++];
+#ifndef TODO_mipmap_pyramid
+    int count = 1;
+    const struct image *last = &levels[0];
+    while (last->width > 1 || last->height > 1) {
+        levels[count] = half_image(last);
+        last = &levels[count++];
     }
-    return m;
+    return count;
+#else
+    /* TODO(mipmap_pyramid): make levels[1], levels[2] and so on, each half the
+     * size of the one before, until one is 1 x 1. Until then there is only the
+     * image itself. */
+    (void)levels;
+    TODO_WARN("10 mipmap", "a pyramid of one level");
+    return 1;
+#endif
 }
+//< mipmap.pyramid
 
-void mipmap_free(struct mipmap *m)
+//> mipmap.level: Choose the level
+#ifndef TODO_mipmap_level
+/* The length in texels of level 0 of a step in texture coordinates. */
+static double length_in_texels(const struct mipmap *m, vec2 step)
 {
-    for (int i = 0; i < m->level_count; i++)
-        image_free(&m->levels[i]);
-    m->level_count = 0;
+    vec2 d = mipmap_finite_step(step);
+    return hypot((double)d.x * m->levels[0].width,
+                 (double)d.y * m->levels[0].height);
 }
-
-/* ---- texels ---- */
-
-/* The remainder that lies in 0 .. n - 1, also of a negative i. */
-static int floor_mod(int i, int n)
-{
-    int remainder = i % n;
-    return remainder < 0 ? remainder + n : remainder;
-}
-
-/* Which of size texels the wrap puts at index i; -1: none. */
-static int wrap_index(enum texture_wrap wrap, int i, int size)
-{
-    if (i >= 0 && i < size)
-        return i;
-    int there_and_back = floor_mod(i, 2 * size);
-    switch (wrap) {
-    case WRAP_REPEAT:
-        return floor_mod(i, size);
-    case WRAP_CLAMP:
-        return i < 0 ? 0 : size - 1;
-    case WRAP_MIRROR:
-        return there_and_back < size ? there_and_back
-                                     : 2 * size - 1 - there_and_back;
-    default:
-        return -1;
-    }
-}
-
-rgb mipmap_texel(const struct mipmap *m, int level, int x, int y)
-{
-    const struct image *image = &m->levels[level];
-    int column = wrap_index(m->wrap, x, image->width);
-    int row = wrap_index(m->wrap, y, image->height);
-    if (column < 0 || row < 0)
-        return rgb_grey(0.0f);
-    return image->pixels[(size_t)row * (size_t)image->width + (size_t)column];
-}
-
-/* ---- lookups of one level ---- */
-
-/* A texture coordinate in texels. The wraps that have a period are brought
- * near 0 and the others stop far outside the image, so that the result fits
- * an int with room to spare; a coordinate that is not finite counts as 0. */
-static double in_texels(const struct mipmap *m, float u, int size)
-{
-    double x = isfinite(u) ? u : 0.0;
-    if (m->wrap == WRAP_REPEAT || m->wrap == WRAP_MIRROR)
-        x -= 2.0 * floor(0.5 * x);
-    return fmin(fmax(x * size, -0x1p30), 0x1p30);
-}
-
-rgb mipmap_nearest(const struct mipmap *m, int level, vec2 uv)
-{
-    const struct image *image = &m->levels[level];
-    return mipmap_texel(m, level, (int)floor(in_texels(m, uv.x, image->width)),
-                        (int)floor(in_texels(m, uv.y, image->height)));
-}
-
-rgb mipmap_bilinear(const struct mipmap *m, int level, vec2 uv)
-{
-    const struct image *image = &m->levels[level];
-    double x = in_texels(m, uv.x, image->width) - 0.5;
-    double y = in_texels(m, uv.y, image->height) - 0.5;
-    int column = (int)floor(x), row = (int)floor(y);
-    float s = (float)(x - column), t = (float)(y - row);
-    rgb upper = rgb_mix(mipmap_texel(m, level, column, row),
-                        mipmap_texel(m, level, column + 1, row), s);
-    rgb lower = rgb_mix(mipmap_texel(m, level, column, row + 1),
-                        mipmap_texel(m, level, column + 1, row + 1), s);
-    return rgb_mix(upper, lower, t);
-}
-
-/* ---- which level ---- */
-
-/* A step in texture coordinates, in texels of an image; one that is not
- * finite counts as no step. */
-struct step {
-    double x, y;
-};
-
-static struct step step_in_texels(const struct image *image, vec2 d)
-{
-    struct step none = {0.0, 0.0};
-    struct step step = {(double)d.x * image->width,
-                        (double)d.y * image->height};
-    return isfinite(d.x) && isfinite(d.y) ? step : none;
-}
-
-/* log2 of a length in texels of level 0, within the levels that there are. */
-static float level_of_length(const struct mipmap *m, double length)
-{
-    double level = length > 1.0 ? log2(length) : 0.0;
-    return (float)fmin(level, m->level_count - 1);
-}
+#endif
 
 float mipmap_level(const struct mipmap *m, vec2 uv_dx, vec2 uv_dy)
 {
-    struct step dx = step_in_texels(&m->levels[0], uv_dx);
-    struct step dy = step_in_texels(&m->levels[0], uv_dy);
-    return level_of_length(m, fmax(hypot(dx.x, dx.y), hypot(dy.x, dy.y)));
+#ifndef TODO_mipmap_level
+    double longer =
+        fmax(length_in_texels(m, uv_dx), length_in_texels(m, uv_dy));
+    return (float)fmin(log2(fmax(longer, 1.0)), m->level_count - 1);
+#else
+    /* TODO(mipmap_level): measure both sides of the footprint in texels of
+     * level 0; log2 of the longer one is the level. Until then it is always
+     * the image itself. */
+    (void)m, (void)uv_dx, (void)uv_dy;
+    TODO_WARN("10 mipmap", "the level is always 0");
+    return 0.0f;
+#endif
 }
+//< mipmap.level
 
+//> mipmap.trilinear: Mix two levels
 rgb mipmap_trilinear(const struct mipmap *m, vec2 uv, vec2 uv_dx, vec2 uv_dy)
 {
+#ifndef TODO_mipmap_trilinear
     float level = mipmap_level(m, uv_dx, uv_dy);
     int fine = (int)level;
     rgb color = mipmap_bilinear(m, fine, uv);
@@ -231,81 +139,19 @@ rgb mipmap_trilinear(const struct mipmap *m, vec2 uv, vec2 uv_dx, vec2 uv_dy)
         return color;
     return rgb_mix(color, mipmap_bilinear(m, fine + 1, uv),
                    level - (float)fine);
+#else
+    /* TODO(mipmap_trilinear): look the colour up in the two levels around
+     * mipmap_level, and mix. Until then distant textures flicker. */
+    (void)uv_dx, (void)uv_dy;
+    TODO_WARN("10 mipmap", "the nearest texel of the full image");
+    return mipmap_nearest(m, 0, uv);
+#endif
 }
+//< mipmap.trilinear
 
-/* ---- elliptically weighted average ---- */
-
-/* The points p around the centre with p' E^-1 p <= 1, in texels; E is the
- * symmetric matrix with rows xx xy and xy yy. Its eigenvalues are the squares
- * of the half axes. */
-struct ellipse {
-    double xx, xy, yy;
-};
-
-/* The circle that a pixel's filter has on the film, mapped to the texture: the
- * points s dx + t dy with s s + t t <= 1. */
-static struct ellipse footprint_ellipse(struct step dx, struct step dy)
-{
-    struct ellipse e = {dx.x * dx.x + dy.x * dy.x, dx.x * dx.y + dy.x * dy.y,
-                        dx.y * dx.y + dy.y * dy.y};
-    return e;
-}
-
-/* Makes the ellipse wider where its longest axis is more than ratio times its
- * shortest: the longest stays, all others grow in proportion. The square of
- * the shortest half axis comes out.
- *
- * The squares of the half axes are mean + spread and mean - spread; a matrix
- * keep E + add I has the axes of E and the squares keep * square + add. */
-static double limit_anisotropy(struct ellipse *e, double ratio)
-{
-    double mean = 0.5 * (e->xx + e->yy);
-    double spread = hypot(0.5 * (e->xx - e->yy), e->xy);
-    double longest = mean + spread, shortest = mean - spread;
-    double wanted = longest / (ratio * ratio);
-    if (shortest >= wanted)
-        return shortest;
-    double keep = (longest - wanted) / (longest - shortest);
-    double add = wanted - keep * shortest;
-    e->xx = keep * e->xx + add;
-    e->xy = keep * e->xy;
-    e->yy = keep * e->yy + add;
-    return wanted;
-}
-
-/* Squeezes the ellipse along x or y where it reaches over so many repeats of
- * the image that more would not show: that bounds the work on images of a few
- * texels. */
-static void limit_repeats(struct ellipse *e, const struct image *image)
-{
-    const double repeats = 4.0;
-    double x = fmin(1.0, repeats * image->width / sqrt(e->xx));
-    double y = fmin(1.0, repeats * image->height / sqrt(e->yy));
-    e->xx *= x * x;
-    e->xy *= x * y;
-    e->yy *= y * y;
-}
-
-/* The ellipse in texels of a level, blurred by bilinear interpolation.
- *
- * Interpolation blurs with a variance of 1/6 along each axis, and the weights
- * below have one of 0.21 when the ellipse is the unit circle: so the sum of
- * texels that comes nearest to the integral over the interpolated image adds
- * about 3/4 to the squares of both axes. (Heckbert, whose texels are little
- * Gaussians, adds 1.) It also keeps the ellipse from falling between the
- * texels. */
-static struct ellipse ellipse_on_level(const struct ellipse *e,
-                                       const struct mipmap *m, int level)
-{
-    const double texel = 0.75;
-    const struct image *image = &m->levels[level];
-    double x = (double)image->width / m->levels[0].width;
-    double y = (double)image->height / m->levels[0].height;
-    struct ellipse on_level = {e->xx * x * x + texel, e->xy * x * y,
-                               e->yy * y * y + texel};
-    return on_level;
-}
-
+//> mipmap.ewa: Average over the footprint's ellipse
+#ifndef TODO_mipmap_ewa
+//> mipmap.ewa.weight: Weigh a texel by its distance
 /* Beyond this squared distance from the centre (1: on the ellipse) the weight
  * is 0. */
 static const double weight_end = 2.0;
@@ -316,7 +162,9 @@ static double ewa_weight(double distance2)
     const float lowest = 0.018315639f; /* exp(-2 weight_end) */
     return fmaxf(expf(-2.0f * (float)distance2) - lowest, 0.0f);
 }
+//< mipmap.ewa.weight
 
+//> mipmap.ewa.row: Add up one row of an ellipse
 /* One row of an ellipse:
  * p' E^-1 p = from_row + ((x - middle) / half_width)^2 */
 struct ewa_row {
@@ -331,18 +179,20 @@ static void ewa_add_row(const struct mipmap *m, int level, int y,
     for (int x = (int)ceil(row->middle - reach); x <= last; x++) {
         double across = (x - row->middle) / row->half_width;
         double weight = ewa_weight(row->from_row + across * across);
-        sum_add(sum, mipmap_texel(m, level, x, y), weight);
+        color_sum_add(sum, mipmap_texel(m, level, x, y), weight);
     }
 }
+//< mipmap.ewa.row
 
+//> mipmap.ewa.sum: Add up the ellipse row by row
 /* The weighted mean of the texels of one level in the ellipse around uv. */
 static rgb ewa_on_level(const struct mipmap *m, int level, vec2 uv,
                         const struct ellipse *footprint)
 {
     struct ellipse e = ellipse_on_level(footprint, m, level);
     const struct image *image = &m->levels[level];
-    double center_x = in_texels(m, uv.x, image->width) - 0.5;
-    double center_y = in_texels(m, uv.y, image->height) - 0.5;
+    double center_x = mipmap_in_texels(m, uv.x, image->width) - 0.5;
+    double center_y = mipmap_in_texels(m, uv.y, image->height) - 0.5;
     double slope = e.xy / e.yy, reach = sqrt(weight_end * e.yy);
     struct ewa_row row = {0.0, 0.0, sqrt(e.xx - e.xy * slope)};
     struct color_sum sum = {0.0, 0.0, 0.0, 0.0};
@@ -353,32 +203,49 @@ static rgb ewa_on_level(const struct mipmap *m, int level, vec2 uv,
         row.middle = center_x + slope * down;
         ewa_add_row(m, level, y, &row, &sum);
     }
-    return sum_mean(&sum);
+    return color_sum_mean(&sum);
 }
+//< mipmap.ewa.sum
 
+//> mipmap.ewa.level: Choose the levels by the shorter axis
 /* The shortest half axis is this many texels, or up to twice as many, of the
  * finer level used: so the box that made the level blurs less than the
  * ellipse. */
 static const double fewest_texels = 1.5;
 
-static const float most_anisotropy = 64.0f;
+static float ewa_level(const struct mipmap *m, double shortest)
+{
+    double level = log2(fmax(shortest / fewest_texels, 1.0));
+    return (float)fmin(level, m->level_count - 1);
+}
+//< mipmap.ewa.level
+#endif
 
 rgb mipmap_ewa(const struct mipmap *m, vec2 uv, vec2 uv_dx, vec2 uv_dy,
                float max_anisotropy)
 {
-    const struct image *image = &m->levels[0];
-    struct ellipse e = footprint_ellipse(step_in_texels(image, uv_dx),
-                                         step_in_texels(image, uv_dy));
+#ifndef TODO_mipmap_ewa
+    //> mipmap.ewa.blend: Average on two levels and mix
+    struct ellipse e = ellipse_of_footprint(m, uv_dx, uv_dy);
     if (e.xx + e.yy == 0.0)
         return mipmap_bilinear(m, 0, uv);
-    float ratio = fminf(fmaxf(max_anisotropy, 1.0f), most_anisotropy);
-    double shortest = sqrt(limit_anisotropy(&e, ratio));
-    limit_repeats(&e, image);
-    float level = level_of_length(m, shortest / fewest_texels);
+    double shortest = ellipse_widen(&e, max_anisotropy);
+    ellipse_limit_repeats(&e, m);
+    float level = ewa_level(m, shortest);
     int fine = (int)level;
     rgb color = ewa_on_level(m, fine, uv, &e);
     if (fine == m->level_count - 1)
         return color;
     return rgb_mix(color, ewa_on_level(m, fine + 1, uv, &e),
                    level - (float)fine);
+    //< mipmap.ewa.blend
+#else
+    /* TODO(mipmap_ewa): sum the texels in the footprint's ellipse, weighted by
+     * a bell, on the levels that suit its shorter axis. Until then it is no
+     * better than the nearest texel. */
+    (void)uv_dx, (void)uv_dy, (void)max_anisotropy;
+    TODO_WARN("10 mipmap", "the nearest texel of the full image");
+    return mipmap_nearest(m, 0, uv);
+#endif
 }
+//< mipmap.ewa

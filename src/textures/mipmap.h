@@ -1,66 +1,66 @@
 /* mipmap.h - assignment 10: an image at every size, and which one to use.
  *
- * Level 0 is the image, each further level half as wide and high (rounded
- * down, at least 1) down to 1 x 1. Any image size works: a texel of the next
- * level is the mean of exactly the area that it covers, so the mean of every
- * level is the mean of the image. */
+ * A pixel that sees a thousand texels wants their mean. A mipmap has the means
+ * ready: level 0 is the image, each further level is half as wide and high,
+ * the last is 1 x 1. What is given for this is in levels.h (texels, the wrap,
+ * a lookup in one level), color_sum.h and ellipse.h.
+ *
+ * How many texels a pixel sees is its footprint: uv_dx and uv_dy say how far
+ * the texture coordinates of its neighbours to the right and below are. All of
+ * these may be any floats, however large. A step that is NaN or infinite counts
+ * as none, (0, 0), and so does a coordinate uv as 0. What levels.h and
+ * ellipse.h give takes care of both. */
 #ifndef RAYBOOK_TEXTURES_MIPMAP_H
 #define RAYBOOK_TEXTURES_MIPMAP_H
 
-#include <stdbool.h>
+#include "textures/levels.h"
 
-#include "base/rgb.h"
-#include "base/vec.h"
-#include "image/image.h"
-
-enum texture_wrap { WRAP_REPEAT, WRAP_CLAMP, WRAP_MIRROR, WRAP_BLACK };
-
-/* NULL-terminated, in the order of enum texture_wrap. */
-extern const char *const texture_wrap_names[];
-
-enum { MIPMAP_MAX_LEVELS = 32 };
-
-/* levels[0] is the image itself. The mipmap owns all levels. */
-struct mipmap {
-    struct image levels[MIPMAP_MAX_LEVELS];
-    int level_count;
-    enum texture_wrap wrap;
-};
-
-/* Takes the image over and builds the smaller levels; whole false: only level
- * 0. The image has at least one texel and at most 2^26 a side, and its values
- * are finite. Release with mipmap_free. */
-struct mipmap mipmap_make(struct image image, enum texture_wrap wrap,
-                          bool whole);
-
-/* In all lookups a coordinate that is NaN or infinite counts as 0, and so does
- * a footprint's step. level is one that there is. */
-
-/* The texel in column x, row y of a level, after the wrap; any x and y. */
-rgb mipmap_texel(const struct mipmap *m, int level, int x, int y);
-
-/* The texel that uv falls into. */
-rgb mipmap_nearest(const struct mipmap *m, int level, vec2 uv);
-
-/* The four texels around uv, weighted by nearness. */
-rgb mipmap_bilinear(const struct mipmap *m, int level, vec2 uv);
+/* Builds the pyramid: fills levels[1], levels[2], ... and returns how many
+ * levels there are, levels[0] included.
+ *
+ * levels[0] is the image and stays as it is, 1 to 2^26 texels a side, of any
+ * size, with finite values. Each level is half as wide and half as high as the
+ * one before, rounded down, but at least 1; the last, and only the last, is
+ * 1 x 1. An image of 1 x 1 is a pyramid by itself. New levels are made by
+ * image_make and then belong to the caller.
+ *
+ * A texel is the mean of exactly the area that it covers, of the level before
+ * or of the image (both are right), to 1e-4 of the largest texel. From 5
+ * texels in a row to 2, each covers two and a half: the one in the middle
+ * counts half for either. So the mean of every level is the image's. */
+int mipmap_pyramid(struct image levels[MIPMAP_MAX_LEVELS]);
 
 /* The level whose texels are as large as the longer side of the footprint:
- * log2 of that length in texels of level 0, clamped to the levels there are.
- * A footprint of zero gives 0. */
+ * log2 of that length in texels of level 0, from 0 up to the last level that
+ * there is; within 0.01. The sides are uv_dx and uv_dy; a whole u is as many
+ * texels as the image is wide, a whole v as many as it is high. A footprint
+ * of zero gives 0. */
 float mipmap_level(const struct mipmap *m, vec2 uv_dx, vec2 uv_dy);
 
-/* Between the two levels around mipmap_level, each bilinear. */
+/* A mix of the two levels around mipmap_level, each looked up bilinearly: at
+ * level 2.25 three parts of level 2 and one of level 3. Within 0.01 of the
+ * largest texel. Nothing but the levels of *m is read: they need not be the
+ * means of each other. */
 rgb mipmap_trilinear(const struct mipmap *m, vec2 uv, vec2 uv_dx, vec2 uv_dy);
 
-/* Elliptically weighted average: the mean over the points uv + s uv_dx +
- * t uv_dy weighted by a Gaussian, exp(-2 q) - exp(-4) where q = s^2 + t^2 is
- * below 2, summed over texels. The ellipse q = 1 is made wider when its longest
- * axis is more than max_anisotropy (1 .. 64) times its shortest. The sum is
- * taken on the two levels around that on which the shortest half axis is 1.5
- * texels, and blended; an ellipse narrower than that uses level 0, and none at
- * all (both steps zero) is a bilinear lookup. The mipmap must be whole: then a
- * lookup reads at most some hundred texels for each unit of max_anisotropy.
+/* Elliptically weighted average: the mean of the image around uv, weighted by
+ * a bell over the ellipse of the footprint. A point uv + s uv_dx + t uv_dy
+ * weighs exp(-2 q) with q = s^2 + t^2, as far as q = 2 or so: the bell may end
+ * anywhere from q = 1 to q = 4, with a step or lowered to 0. The weights are
+ * divided by their sum.
+ *
+ * - Where the longest axis is more than max_anisotropy (1 to 64) times the
+ *   shortest, the ellipse is made wider: the longest stays.
+ * - The sum is taken over texels of levels on which the shortest half axis is
+ *   about 1 to 3 texels, and blended between two such levels.
+ * - An ellipse narrower than that is summed on level 0; it is widened by up to
+ *   a texel there, so that it does not fall between the texels. No ellipse,
+ *   both steps zero, is a bilinear lookup of level 0.
+ * - A lookup reads at most some hundred texels for each unit of
+ *   max_anisotropy, however small the image and large the footprint: an
+ *   ellipse that spans several repeats of the image may be shrunk to them.
+ *
+ * The mipmap has all its levels; here they are means of each other.
  *
  * Source: N. Greene and P. Heckbert, "Creating Raster Omnimax Images from
  * Multiple Perspective Views Using the Elliptical Weighted Average Filter",
@@ -68,7 +68,5 @@ rgb mipmap_trilinear(const struct mipmap *m, vec2 uv, vec2 uv_dx, vec2 uv_dy);
  * Warping", master's thesis, UC Berkeley, 1989, section 3.5. */
 rgb mipmap_ewa(const struct mipmap *m, vec2 uv, vec2 uv_dx, vec2 uv_dy,
                float max_anisotropy);
-
-void mipmap_free(struct mipmap *m);
 
 #endif
