@@ -1,18 +1,17 @@
 """What the contract of ``mipmap_ewa`` leaves open, as bounds on how a wave is damped.
 
-A wave cos(2 pi k . x) keeps the factor H(rho) under a bell w(q) over the ellipse E, in texels, where
-rho^2 = k' E k: the Hankel transform of the bell,
+A wave cos(2 pi k . x) keeps the factor H(rho) under a bell w(q) over the ellipse E, in texels,
+where rho^2 = k' E k: the Hankel transform of the bell,
 
     H(rho) = integral of w(r^2) J0(2 pi rho r) r dr / integral of w(r^2) r dr.
 
-The bell is exp(-2 q), may end anywhere from q = 1 to q = 4, and may be lowered so that it ends at 0.
-`damping` holds the least and the largest factor of all of these.
+The bell is exp(-2 q), may end anywhere from q = 1 to q = 4, and may be lowered so that it ends at
+0. `damping` holds the least and the largest factor of all of these.
 
 The levels blur as well, in all directions: a texel is a box of at most the shortest half axis s (of
 variance s^2 / 12 along each axis), interpolation between texels adds s^2 / 6 if it is bilinear, and
-the ellipse is widened by up to a texel, which is s^2 / 4 of variance for the widest bell. At most
-two of the last two are used, one after another or both by Heckbert's Gaussian texels: together
-below 0.5 s^2, or 0.5 where s is below one texel. A blur of variance c damps by
+the ellipse is widened by up to a texel, which is s^2 / 4 of variance for the widest bell. Together
+that is 0.5 s^2, or 0.5 where s is below one texel. A blur of variance c damps by
 exp(-2 pi^2 c |k|^2).
 """
 

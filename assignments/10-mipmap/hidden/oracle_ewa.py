@@ -270,7 +270,12 @@ def _borders(rng: np.random.Generator, mipmaps: list[Mipmap]) -> Iterator[Lookup
     halves = np.repeat(np.concatenate([np.zeros((64, 32)), np.ones((64, 32))], 1)[..., None], 3, 2)
     white = np.ones((64, 64, 3))
     #      u: -0.25 0.25 0.75 1.25
-    beside = {REPEAT: (1, 0, 1, 0), CLAMP: (0, 0, 1, 1), MIRROR: (0, 0, 1, 1), BLACK: (0, 0, 1, 0)}
+    beside = {
+        REPEAT: (1, 0, 1, 0),
+        CLAMP: (0, 0, 1, 1),
+        MIRROR: (0, 0, 1, 1),
+        BLACK: (0, 0, 1, 0),
+    }
     for turned in (False, True):
         for wrap, colors in beside.items():
             image = halves.transpose(1, 0, 2) if turned else halves
@@ -279,7 +284,12 @@ def _borders(rng: np.random.Generator, mipmaps: list[Mipmap]) -> Iterator[Lookup
                 right = _near(np.full(3, color), COLOR_TOLERANCE)
                 yield from _small(rng, mipmaps, "halves", u, turned, right)
         mipmaps.append(Mipmap("white", BLACK, pyramid(white)))
-        for u, value, tolerance in ((-0.25, 0, 0.01), (0, 0.5, 0.12), (0.5, 1, 0.01), (1, 0.5, 0.12)):
+        for u, value, tolerance in (
+            (-0.25, 0, 0.01),
+            (0, 0.5, 0.12),
+            (0.5, 1, 0.01),
+            (1, 0.5, 0.12),
+        ):
             right = _near(np.full(3, value), tolerance)
             yield from _small(rng, mipmaps, "white beside black", u, turned, right)
 
@@ -304,6 +314,8 @@ def _points(rng: np.random.Generator, mipmaps: list[Mipmap]) -> Iterator[Lookup]
         for i in range(30):
             uv = single(rng.uniform(-1, 2, 2))
             right = _near(bilinear(mipmaps[-1], 0, uv), COLOR_TOLERANCE)
-            step = none if i < 20 else np.array([np.nan, 0.1]) if i < 25 else np.array([0.1, np.inf])
+            step = (
+                none if i < 20 else np.array([np.nan, 0.1]) if i < 25 else np.array([0.1, np.inf])
+            )
             kind = "no footprint" if i < 20 else "steps that are not finite"
             yield Lookup(kind, len(mipmaps) - 1, uv, step, step, 8, right)

@@ -139,7 +139,11 @@ def _sizes_of(width: int, height: int) -> Iterator[tuple[int, int]]:
 
 
 def _random_levels(
-    rng: np.random.Generator, name: str, wrap: int, size: tuple[int, int], most: int = 32
+    rng: np.random.Generator,
+    name: str,
+    wrap: int,
+    size: tuple[int, int],
+    most: int = 32,
 ) -> Mipmap:
     """A mipmap whose levels have nothing to do with each other."""
     sizes = list(_sizes_of(*size))[:most]

@@ -46,7 +46,11 @@ def make_cases(group: str, seed: int) -> Cases:
         corner = np.zeros((height, width, 3))
         corner[-1, -1] = (1, 2, 4)
         noise = single(rng.random((height, width, 3)) * 10.0 ** rng.integers(-3, 4))
-        for name, image in (("a ramp", ramp), ("one bright texel", corner), ("noise", noise)):
+        for name, image in (
+            ("a ramp", ramp),
+            ("one bright texel", corner),
+            ("noise", noise),
+        ):
             mipmaps.append(Mipmap(name, CLAMP, (image,)))
     counts = [1 + len(_sizes(*m.levels[0].shape[1::-1])) for m in mipmaps]
     return Cases(packed(mipmaps, []), len(mipmaps), Context(mipmaps, counts))
@@ -84,7 +88,10 @@ def _words(m: Mipmap) -> int:
 
 def _wrong(m: Mipmap, words: np.ndarray, count: int) -> tuple[str, str] | None:
     if words[1] & CHANGED_IMAGE:
-        return "the image was changed", "levels[0], the image itself, is not what it was"
+        return (
+            "the image was changed",
+            "levels[0], the image itself, is not what it was",
+        )
     if words[0] != count:
         returned = int(words.view("<i4")[0])
         last = "the last one is 1 x 1"
