@@ -24,7 +24,11 @@ space := $(empty) $(empty)
 variant_name := $(notdir $(patsubst %/,%,$(VARIANT)))
 config := $(OPT)-$(notdir $(CC))$(if $(filter-out native,$(ARCH)),-$(ARCH))
 config := $(config)$(if $(CHECK),-check)
-config := $(config)$(if $(TODO),-todo-$(subst $(space),+,$(sort $(TODO))))
+# A folder's name has an end: of many exercises it holds a number in place of them.
+todo_names := $(sort $(TODO))
+todo_name := $(if $(word 6,$(todo_names)),$(words $(todo_names))-$(firstword \
+    $(shell echo '$(todo_names)' | cksum)),$(subst $(space),+,$(todo_names)))
+config := $(config)$(if $(TODO),-todo-$(todo_name))
 config := $(config)$(if $(VARIANT),-variant-$(variant_name))
 objdir := build/obj/$(config)
 bindir := build/bin

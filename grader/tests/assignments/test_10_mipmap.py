@@ -137,7 +137,8 @@ MUTANTS = {
     "the mirrored ellipse": ("double slope = e.xy / e.yy", "double slope = -e.xy / e.yy", "ewa"),
     "beside the middle": ("uv.x, image->width) - 0.5;\n    double center_y",
                           "uv.x, image->width);\n    double center_y", "ewa"),
-    "two levels too high": ("shortest / fewest_texels, 1.0", "4.0 * shortest / fewest_texels, 1.0", "ewa"),
+    "two levels too high": ("shortest / fewest_texels, 1.0",
+                            "4.0 * shortest / fewest_texels, 1.0", "ewa"),
     "without a mix": ("return rgb_mix(color, ewa_on_level(m, fine + 1, uv, &e),",
                       "return rgb_mix(rgb_grey(0.5f), color,", "ewa"),
 }  # fmt: skip

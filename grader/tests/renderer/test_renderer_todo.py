@@ -34,6 +34,8 @@ from renderer_runs import (
     write_scene,
 )
 
+from raybook_grader.judge.exr import write_exr
+
 
 @dataclass(frozen=True)
 class Stub:
@@ -77,17 +79,22 @@ def test_every_condition_on_an_exercise_is_known() -> None:
 
 
 def scene(folder: Path) -> Path:
-    """A mesh with texture coordinates, a sphere, a clear sphere, two lights."""
+    """A mesh with texture coordinates, spheres with filtered images, a clear one, two lights."""
     corners = "v -3 -1 2\nv 3 -1 2\nv 3 -1 -4\nv -3 -1 -4\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
     write_mesh(folder, "floor.obj", corners + "f 1/1 2/2 3/3 4/4\n")
     paint = diffuse(paint=[0.8, 0.7, 0.6])
     paint["materials"]["clear"] = {"type": "refraction"}
+    write_exr(folder / "image.exr", np.full((8, 8, 3), 0.5, np.float32))
+    for kind in ("trilinear", "ewa"):
+        paint["textures"][kind] = {"type": "image", "path": "image.exr", "filter": kind}
+        paint["materials"][kind] = {"type": "diffuse", "texture_name": kind}
     description: Json = {
         "integrator": {"point_light_position": [2, 3, 3], "point_light_flux": [300, 300, 300]},
         "camera": {"position": [0, 0.5, 5], "fov": 50},
         "objects": [
             mesh("floor.obj", "paint"),
-            sphere([0, 0, 0], 1, "paint"),
+            sphere([0, 0, 0], 1, "trilinear"),
+            sphere([1.5, 0.5, 0], 0.4, "ewa"),
             sphere([0, 0.5, 3], 0.3, "clear"),
         ],
         "lights": [point_light([-3, 2, 1], [100, 50, 20])],
