@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -140,3 +141,24 @@ def test_here_the_reference_is_all_done() -> None:
     checked = subprocess.run(command, capture_output=True, text=True)
     assert checked.returncode == 0, checked.stdout + checked.stderr
     assert checked.stdout.count("\N{CHECK MARK}") == 2
+
+
+def test_watch_shows_the_picture_each_time(folder: Path) -> None:
+    write_module(folder, right())
+    command = [str(ROOT / "build/venv/bin/python"), "-m", "raybook_grader.student", "watch"]
+    environment = {
+        "PATH": os.environ["PATH"],
+        "PYTHONPATH": "tools",
+        "UNITY_ROOT": os.environ.get("UNITY_ROOT") or str(ROOT / "build/unity"),
+    }
+    once = subprocess.run(
+        [*command, "--assignment", "01", "--rounds", "1"],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+    )
+    assert once.returncode == 0, once.stderr
+    assert " tests pass, the picture is right" in once.stdout
+    assert "build/check/01-triangle-cornell-box.png: yours, expected, difference" in once.stdout
+    assert "waiting for the next save" in once.stdout
