@@ -62,7 +62,7 @@ class Live:
 
     def path_log(
         self,
-        assignment: Assignment,
+        assignment: Assignment | None,
         picture: PublicPicture,
         undone: tuple[str, ...],
         pixel: tuple[int, int],

@@ -42,10 +42,8 @@ def debug(project: Project, number: str, scene: str, pixel: str) -> Debugged:
     width, height = picture.resolution
     if not (0 <= place[0] < width and 0 <= place[1] < height):
         raise BadInput(f"PIXEL={pixel}: the picture has {width} x {height} pixels")
-    expected = None
-    if assignment:
-        undone = project.undone(picture)
-        expected = project.expected.path_log(assignment, picture, undone, place)
+    undone = project.undone(picture)
+    expected = project.expected.path_log(assignment, picture, undone, place)
     renderer = Maker(project.root).programs([]).renderer
     log = _log(renderer, project.root, picture, expected.pixel if expected else place)
     difference = first_difference(log, expected.text) if expected else None

@@ -69,12 +69,15 @@ class Expected(Protocol):
 
     def path_log(
         self,
-        assignment: Assignment,
+        assignment: Assignment | None,
         picture: PublicPicture,
         undone: tuple[str, ...],
         pixel: tuple[int, int],
     ) -> PathLog | None:
-        """The paths of the pixel, or of the nearest one whose paths are known."""
+        """The paths of the pixel, or of the nearest one whose paths are known.
+
+        ``assignment`` is None for a scene that is no public picture.
+        """
 
 
 @dataclass(frozen=True)

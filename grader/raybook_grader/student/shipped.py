@@ -72,8 +72,14 @@ class Shipped:
         return ReferenceStatistics.load(file) if file.is_file() else None
 
     def path_log(
-        self, assignment: Assignment, picture: PublicPicture, undone: tuple[str, ...], pixel: Pixel
+        self,
+        assignment: Assignment | None,
+        picture: PublicPicture,
+        undone: tuple[str, ...],
+        pixel: Pixel,
     ) -> PathLog | None:
+        if assignment is None:
+            return None
         file = self.root / assignment.folder / paths_name(picture, undone)
         if not file.is_file():
             return None
