@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..course import ImageCheck
+from ..diagnosis.trace import Trace, trace_of_picture
 from ..judge.image import ImageJudgement, judge_image
 from ..judge.pixels import Image
 from ..judge.reference import ReferenceStatistics
@@ -104,7 +105,15 @@ def _tell(
         cases=tuple(reason.sentence for reason in reasons),
         fingerprint=_KINDS[reasons[0].code] if reasons else "",
         picture=_viewer(check, judgement, reference),
+        trace=_trace(judgement, reference) if status is Status.FAILED else None,
     )
+
+
+def _trace(judgement: ImageJudgement, reference: ReferenceStatistics) -> Trace | None:
+    if judgement.mean is None:
+        return None
+    codes = (reason.code for reason in judgement.bias.reasons)
+    return trace_of_picture(codes, judgement.mean, reference.mean)
 
 
 def _viewer(check: ImageCheck, judgement: ImageJudgement, reference: ReferenceStatistics) -> str:

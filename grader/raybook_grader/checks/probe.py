@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 
 from ..course import ProbeCheck
+from ..diagnosis.trace import trace_of_cases
 from ..probes import Failure
 from .oracles import cases_of, load_oracle
 from .result import CheckResult, Status, conclude
@@ -51,6 +52,7 @@ def _tell(check: ProbeCheck, count: int, failures: Sequence[Failure]) -> CheckRe
         f"{wrong} of {count} cases {'is' if wrong == 1 else 'are'} wrong",
         cases=tuple(failure.message for failure in shown),
         fingerprint=kinds.most_common(1)[0][0],
+        trace=trace_of_cases(count, failures),
     )
 
 

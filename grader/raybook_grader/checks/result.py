@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from typing import Any
 
@@ -50,6 +51,8 @@ class CheckResult:
     words: str = ""
     """What the compiler or the program said, cleaned and cut."""
     picture: str = ""
+    trace: Mapping[str, Any] = field(default_factory=dict)
+    """What the diagnosis compares; see `diagnosis.trace`."""
 
     @property
     def told(self) -> str:
@@ -90,6 +93,7 @@ def conclude(
     fingerprint: str = "",
     words: str = "",
     picture: str = "",
+    trace: Mapping[str, Any] | None = None,
 ) -> CheckResult:
     """The result of ``check``; by default it earns all its points if passed, and else none.
 
@@ -109,4 +113,5 @@ def conclude(
         fingerprint=fingerprint,
         words=words,
         picture=picture,
+        trace=trace or {},
     )

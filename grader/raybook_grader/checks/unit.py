@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ..course import UnitCheck
+from ..diagnosis.trace import trace_of_names
 from .result import JUDGED, CheckResult, Status, conclude
 from .subject import Subject
 from .unity import read_unity
@@ -40,6 +41,7 @@ def check_unit(check: UnitCheck, subject: Subject) -> CheckResult:
         cases=tuple(map(str, tests.failures[:_SHOWN])),
         words=words,
         fingerprint=tests.failures[0].name if tests.failures else told,
+        trace=trace_of_names(failure.name for failure in tests.failures),
     )
 
 

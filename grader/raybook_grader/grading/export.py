@@ -56,7 +56,7 @@ def _module(module: Module, result: ModuleResult) -> dict[str, Any]:
         "max_score": module.points,
         "verdict": result.verdict.value,
         "message": result.message,
-        "diagnosis": [],
+        "diagnosis": [diagnosis.to_json() for diagnosis in result.diagnosis],
         "checks": [
             {
                 "name": check.name,

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from ..checks.program import Workshop
 from ..checks.reference import References
 from ..course import load_course
+from ..diagnosis import load_known
 from ..kit import load_kit
 from ..sandbox import Box
 from ..submissions import SubmittedFile
+from .key import Keys
 from .module import ModuleGrader
 from .result import ModuleResult
 
@@ -37,5 +40,7 @@ class Worker:
 
     def __call__(self) -> Callable[[Job], ModuleResult]:
         workshop = self.workshop()
-        grader = ModuleGrader(workshop, References(workshop))
+        keys = Keys(workshop.course, workshop.kit)
+        known = cache(lambda assignment: load_known(keys.known_file(assignment)))
+        grader = ModuleGrader(workshop, References(workshop), known)
         return lambda job: grader.grade(workshop.course.assignment(job.assignment), job.files)

@@ -16,9 +16,6 @@ from ..submissions import SubmittedFile
 _PACKAGE = Path(__file__).resolve().parents[1]
 _NO_SAY = ("reports", "literate")
 """Parts of the grader that change no result."""
-_NOT_USED = ("mistakes", "alternatives")
-"""Parts of an assignment that no submission is graded with."""
-
 
 class Keys:
     """The keys of one run's work."""
@@ -30,22 +27,29 @@ class Keys:
 
     def key(self, assignment: Assignment, files: Mapping[str, SubmittedFile]) -> str:
         """The key of grading these files of a submission in an assignment."""
-        if assignment.number not in self._assignments:
-            self._assignments[assignment.number] = self._assignment(assignment)
-        parts = [self._assignments[assignment.number]]
+        parts = [self._of(assignment)]
         for path in sorted(files):
             file = files[path]
             parts += [path, file.refusal or "", hashlib.sha256(file.content).hexdigest()]
         return _hash(parts)
 
+    def known_file(self, assignment: Assignment) -> Path:
+        """Where the known mistakes of an assignment are kept, with what they look like."""
+        name = f"{assignment.number}-{assignment.module}-{self._of(assignment)[:24]}.json"
+        return self._course.root / "build" / "diagnosis" / name
+
+    def _of(self, assignment: Assignment) -> str:
+        if assignment.number not in self._assignments:
+            self._assignments[assignment.number] = self._assignment(assignment)
+        return self._assignments[assignment.number]
+
     def _assignment(self, assignment: Assignment) -> str:
         root = self._course.root
         scenes = {check.scene for check in assignment.checks if isinstance(check, ImageCheck)}
-        used = [p for p in _files(assignment.folder) if not _is_below(p, assignment, _NOT_USED)]
         return _hash([
             self._grader,
             self._kit.fingerprint,
-            *(_content(path, assignment.folder) for path in used),
+            *(_content(path, assignment.folder) for path in _files(assignment.folder)),
             *(stub_text(root, path) for path in assignment.sources),
             *([] if assignment.sources else self._course.sources),
             *(scene_fingerprint(root, scene) for scene in sorted(scenes)),
@@ -65,10 +69,6 @@ class Keys:
 
 def _files(folder: Path) -> list[Path]:
     return sorted(p for p in folder.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
-
-
-def _is_below(path: Path, assignment: Assignment, folders: Iterable[str]) -> bool:
-    return path.relative_to(assignment.folder).parts[0] in folders
 
 
 def _content(path: Path, base: Path) -> str:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from ..checks.artefact import check_artefact
 from ..checks.build import check_build, failed_build
@@ -31,6 +31,7 @@ from ..course import (
     RobustCheck,
     UnitCheck,
 )
+from ..diagnosis import Known, nearest
 from ..submissions import SubmittedFile
 from .result import ModuleResult, from_checks, internal_error, missing
 
@@ -44,6 +45,8 @@ class ModuleGrader:
 
     workshop: Workshop
     references: References
+    known: Callable[[Assignment], Sequence[Known]] = lambda assignment: ()
+    """The mistakes that a failing module is compared with."""
 
     def grade(self, assignment: Assignment, files: Mapping[str, SubmittedFile]) -> ModuleResult:
         """The result for the owned files that were found; any fault of the harness is inside it."""
@@ -82,7 +85,8 @@ class ModuleGrader:
             renderer = self.workshop.renderer(module)
         except BuildFailure as failure:
             return from_checks([_unbuilt(check, failure) for check in assignment.checks])
-        return self._run_all(Subject(self.workshop, assignment, module, renderer))
+        result = self._run_all(Subject(self.workshop, assignment, module, renderer))
+        return replace(result, diagnosis=nearest(result.checks, self.known(assignment)))
 
     def _run_all(self, subject: Subject) -> ModuleResult:
         results: list[CheckResult] = []

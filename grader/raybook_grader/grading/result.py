@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..checks.result import CheckResult
+from ..diagnosis import Diagnosis
 from ..scoring import Verdict, score_of, verdict_of
 
 
@@ -23,6 +24,8 @@ class ModuleResult:
     message: str = ""
     checks: tuple[CheckResult, ...] = ()
     traceback: str = ""
+    diagnosis: tuple[Diagnosis, ...] = ()
+    """Known mistakes that it looks like, the likeliest first."""
 
     def to_json(self) -> dict[str, Any]:
         return {
@@ -31,6 +34,7 @@ class ModuleResult:
             "message": self.message,
             "checks": [check.to_json() for check in self.checks],
             "traceback": self.traceback,
+            "diagnosis": [diagnosis.to_json() for diagnosis in self.diagnosis],
         }
 
     @classmethod
@@ -42,6 +46,7 @@ class ModuleResult:
             message=values["message"],
             checks=tuple(CheckResult.from_json(check) for check in values["checks"]),
             traceback=values["traceback"],
+            diagnosis=tuple(Diagnosis(**diagnosis) for diagnosis in values["diagnosis"]),
         )
 
     def without_pictures(self) -> ModuleResult:

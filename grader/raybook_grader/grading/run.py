@@ -24,6 +24,7 @@ from ..submissions import Submission, find_submissions
 from .changes import changes, snapshot
 from .export import write_grades
 from .job import Job, Worker
+from .learn import learn
 from .plan import Order, choose_assignments, plan, refuse_unknown
 from .result import ModuleResult, internal_error
 from .totals import totals
@@ -51,6 +52,7 @@ def grade_class(course: Course, worker: Worker, order: Order, console: Console) 
         _introduce(console, order.submissions, submissions, ignored, jobs, database)
         if jobs:
             _prepare(worker, {job.assignment for job in jobs}, console)
+            learn(worker, {job.assignment for job in jobs}, order.workers, console)
         _do(jobs, worker, order.workers, database, console)
         grades = write_grades(database, order.out)
         report = write_reports(database, order.out)

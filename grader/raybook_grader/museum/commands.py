@@ -11,12 +11,10 @@ from rich.console import Console
 
 from ..course import load_course
 from ..errors import BadInput
-from ..jobs.pool import Died, run_jobs
-from ..jobs.progress import progress
 from ..sandbox import require
-from .exhibits import Exhibit, exhibits_of
+from .exhibits import exhibits_of
 from .table import lines_of, summary
-from .visit import Visit, Visitor, with_museum
+from .visit import Visitor, visit_all, with_museum
 
 if TYPE_CHECKING:
     # argparse has no public name for what add_subparsers() returns.
@@ -58,17 +56,3 @@ def _museum(arguments: argparse.Namespace) -> int:
         print("\n".join(lines_of(f"{a.number} {a.module}", own)), end="\n\n")
     print(summary(list(visits.values())))
     return 0 if all(v.as_announced for v in visits.values()) else 1
-
-
-def visit_all(
-    visitor: Visitor, exhibits: list[Exhibit], jobs: int, console: Console
-) -> dict[str, Visit]:
-    """The visits by the exhibit's name."""
-    visits: dict[str, Visit] = {}
-    with progress(console, "museum", len(exhibits)) as bar:
-        for exhibit, outcome in run_jobs(exhibits, visitor, jobs):
-            if isinstance(outcome, Died):
-                raise RuntimeError(f"{exhibit.name}: {outcome.message}")
-            visits[exhibit.name] = outcome
-            bar.advance()
-    return visits

@@ -6,12 +6,16 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from rich.console import Console
+
 from ..checks.program import Workshop
 from ..checks.reference import References
 from ..checks.result import CheckResult, Status
 from ..course import Assignment, Course, ImageCheck, UnitCheck, load_course
 from ..grading.module import ModuleGrader
 from ..grading.result import ModuleResult
+from ..jobs.pool import Died, run_jobs
+from ..jobs.progress import progress
 from ..kit import load_kit
 from ..sandbox import Box
 from ..submissions import SubmittedFile
@@ -83,3 +87,17 @@ def _failing(exhibit: Exhibit, checks: Iterable[CheckResult]) -> Iterator[str]:
         slow = exhibit.is_right and check.kind == "cost" and check.status is Status.PARTIAL
         if check.status not in _FINE and not slow:
             yield check.name
+
+
+def visit_all(
+    visitor: Visitor, exhibits: list[Exhibit], jobs: int, console: Console
+) -> dict[str, Visit]:
+    """The visits by the exhibit's name."""
+    visits: dict[str, Visit] = {}
+    with progress(console, "museum", len(exhibits)) as bar:
+        for exhibit, outcome in run_jobs(exhibits, visitor, jobs):
+            if isinstance(outcome, Died):
+                raise RuntimeError(f"{exhibit.name}: {outcome.message}")
+            visits[exhibit.name] = outcome
+            bar.advance()
+    return visits

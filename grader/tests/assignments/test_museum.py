@@ -15,9 +15,8 @@ from rich.console import Console
 from raybook_grader.course import ImageCheck, load_course
 from raybook_grader.errors import BadInput
 from raybook_grader.museum import Exhibit, exhibits_of
-from raybook_grader.museum.commands import visit_all
 from raybook_grader.museum.label import split_patch
-from raybook_grader.museum.visit import Visit, Visitor, with_museum
+from raybook_grader.museum.visit import Visit, Visitor, visit_all, with_museum
 
 ROOT = Path(__file__).resolve().parents[3]
 VISITOR = Visitor(ROOT, ROOT / "build" / "kit", images=False)

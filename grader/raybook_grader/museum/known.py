@@ -1,0 +1,30 @@
+"""What the diagnosis learns from the museum: each mistake as the grader sees it."""
+
+from __future__ import annotations
+
+from rich.console import Console
+
+from ..course import Assignment
+from ..diagnosis import Known
+from ..grading.job import Worker
+from .exhibits import Exhibit, exhibits_of
+from .visit import Visit, Visitor, visit_all
+
+
+def known_mistakes(
+    worker: Worker, assignment: Assignment, jobs: int, console: Console
+) -> list[Known]:
+    """Judge the mistakes of one assignment; pictures only for those that nothing else sees."""
+    if not (assignment.folder / "mistakes").is_dir():
+        return []
+    mistakes = [e for e in exhibits_of(worker.root, assignment) if not e.is_right]
+    quick = visit_all(Visitor(worker.root, worker.kit, images=False), mistakes, jobs, console)
+    unseen = [e for e in mistakes if not quick[e.name].failed]
+    slow = visit_all(Visitor(worker.root, worker.kit, images=True), unseen, jobs, console)
+    return [_known(e, quick | slow) for e in mistakes]
+
+
+def _known(exhibit: Exhibit, visits: dict[str, Visit]) -> Known:
+    assert exhibit.label is not None
+    checks = visits[exhibit.name].result.without_pictures().checks
+    return Known(exhibit.slug, exhibit.label.hint, checks)
