@@ -94,6 +94,11 @@ museum: ## [A=03] judges all alternatives and mistakes; which public tests catch
 	@$(MAKE) kit
 	@$(grader) museum $(if $(A),--assignment $(A)) $(ARGS)
 
+calibrate: ## [A=03] [FULL=1] judges all that is known to be right or wrong: the confusion table
+	@.setup/setup.sh
+	@$(MAKE) kit
+	@$(grader) calibrate $(if $(A),--module $(A)) $(if $(FULL),--full) $(ARGS)
+
 # The reference as objects, for linking with one module of a student.
 kit: build/meshes/done ## what the grader links students' modules with: build/kit/
 	@$(MAKE) OPT=release EMBREE=no objects lto= config=kit
@@ -120,5 +125,5 @@ fuzz: ## [SECONDS=600] searches for files that crash the readers of scenes, mesh
 clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
-.PHONY: help setup build render test format check-format check-python check watch hint debug \
-    handout grade museum kit objects variance mitsuba fuzz clean
+.PHONY: help setup build render test format check-format check-python check watch hint \
+    debug handout grade museum calibrate kit objects variance mitsuba fuzz clean

@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import sys
 
+from .calibration import commands as calibration
 from .errors import BadInput
 from .grading import commands as grading
 from .judge import commands as judge
@@ -24,7 +25,7 @@ def parser() -> argparse.ArgumentParser:
         description="Grades submissions to the Raybook course; makes its student edition.",
     )
     commands = top.add_subparsers(metavar="COMMAND", required=True)
-    for part in (grading, judge, museum, literate):
+    for part in (grading, judge, museum, calibration, literate):
         part.add_commands(commands)
     return top
 

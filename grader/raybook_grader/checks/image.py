@@ -43,7 +43,7 @@ def check_image(check: ImageCheck, subject: Subject, references: References) -> 
     Raises `Stopped` if a run gives no picture to judge.
     """
     picture = picture_of(check)
-    seeds = range(1, check.seeds + 1)
+    seeds = range(check.first_seed, check.first_seed + check.seeds)
     reference = references.statistics(picture)
     judgement = judge_image(
         lambda at: _render(subject, picture, at),

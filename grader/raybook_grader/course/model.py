@@ -94,6 +94,7 @@ class ImageCheck:
     """Renderings of a scene, ``seeds`` of them at ``spp`` samples a pixel.
 
     ``scene`` is relative to the course's root; ``resolution`` is (width, height).
+    ``first_seed`` is what calibration moves, to repeat a verdict on other seeds.
     """
 
     name: str
@@ -103,6 +104,7 @@ class ImageCheck:
     spp: int
     seeds: int
     hidden: bool = False
+    first_seed: int = 1
 
 
 Check = BuildCheck | UnitCheck | ProbeCheck | RobustCheck | CostCheck | ImageCheck | ArtefactCheck

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 
@@ -14,8 +14,9 @@ from ..kit import Kit
 from ..submissions import SubmittedFile
 
 _PACKAGE = Path(__file__).resolve().parents[1]
-_NO_SAY = ("reports", "literate")
+_NO_SAY = ("reports", "literate", "calibration")
 """Parts of the grader that change no result."""
+_MUSEUM = ("mistakes", "alternatives", "twins")
 
 class Keys:
     """The keys of one run's work."""
@@ -27,7 +28,14 @@ class Keys:
 
     def key(self, assignment: Assignment, files: Mapping[str, SubmittedFile]) -> str:
         """The key of grading these files of a submission in an assignment."""
-        parts = [self._of(assignment)]
+        return self._key(self._of(assignment), files)
+
+    def judged(self, assignment: Assignment, files: Mapping[str, SubmittedFile]) -> str:
+        """The same without the diagnosis: the museum has no say in it."""
+        return self._key(self._assignment(assignment, _MUSEUM), files)
+
+    def _key(self, first: str, files: Mapping[str, SubmittedFile]) -> str:
+        parts = [first]
         for path in sorted(files):
             file = files[path]
             parts += [path, file.refusal or "", hashlib.sha256(file.content).hexdigest()]
@@ -43,13 +51,18 @@ class Keys:
             self._assignments[assignment.number] = self._assignment(assignment)
         return self._assignments[assignment.number]
 
-    def _assignment(self, assignment: Assignment) -> str:
+    def _assignment(self, assignment: Assignment, without: Collection[str] = ()) -> str:
         root = self._course.root
         scenes = {check.scene for check in assignment.checks if isinstance(check, ImageCheck)}
+        used = [
+            path
+            for path in _files(assignment.folder)
+            if path.relative_to(assignment.folder).parts[0] not in without
+        ]
         return _hash([
             self._grader,
             self._kit.fingerprint,
-            *(_content(path, assignment.folder) for path in _files(assignment.folder)),
+            *(_content(path, assignment.folder) for path in used),
             *(stub_text(root, path) for path in assignment.sources),
             *([] if assignment.sources else self._course.sources),
             *(scene_fingerprint(root, scene) for scene in sorted(scenes)),

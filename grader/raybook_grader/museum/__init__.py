@@ -4,7 +4,7 @@ They stand in `assignments/NN-*/alternatives` and `mistakes`. The grader is test
 its diagnosis learns from them.
 """
 
-from .exhibits import Exhibit, exhibits_of, reference_of
+from .exhibits import Exhibit, Twin, exhibits_of, reference_of, twins_of
 from .label import Label
 
-__all__ = ["Exhibit", "Label", "exhibits_of", "reference_of"]
+__all__ = ["Exhibit", "Label", "Twin", "exhibits_of", "reference_of", "twins_of"]

@@ -10,7 +10,7 @@ from pathlib import Path, PurePosixPath
 
 from ..course import Assignment
 from ..errors import BadInput
-from .label import Label, split_patch
+from .label import Label, split_mistake, split_twin
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,14 @@ class Exhibit:
         return f"{self.assignment}/{self.slug}"
 
 
+@dataclass(frozen=True)
+class Twin:
+    """A mistake made again in other words, to test the diagnosis on; it learns nothing from it."""
+
+    exhibit: Exhibit
+    mistake: str
+
+
 def reference_of(root: Path, assignment: Assignment) -> Exhibit:
     """The course's own solution."""
     files = {path: (root / path).read_bytes() for path in assignment.owned}
@@ -54,6 +62,21 @@ def exhibits_of(root: Path, assignment: Assignment) -> list[Exhibit]:
         for patch in sorted((assignment.folder / "mistakes").glob("*.patch"))
     ]
     return [reference, *alternatives.values(), *mistakes]
+
+
+def twins_of(root: Path, assignment: Assignment) -> list[Twin]:
+    """The `twins/*.patch`; raises `BadInput` for one that is broken."""
+    reference = reference_of(root, assignment)
+    alternatives = dict(_alternatives(reference, assignment))
+    known = {patch.stem for patch in (assignment.folder / "mistakes").glob("*.patch")}
+    twins = []
+    for patch in sorted((assignment.folder / "twins").glob("*.patch")):
+        slug, diff = split_twin(patch)
+        if slug not in known:
+            raise BadInput(f"{patch}: is the twin of {slug!r}: no such mistake")
+        files = _changed(root, reference, alternatives, assignment, patch, diff)
+        twins.append(Twin(Exhibit(assignment.number, f"twins/{patch.stem}", files), slug))
+    return twins
 
 
 def _alternatives(reference: Exhibit, assignment: Assignment) -> Iterator[tuple[Path, Exhibit]]:
@@ -80,10 +103,23 @@ def _mistake(
     patch: Path,
 ) -> Exhibit:
     """The module with the mistake in it."""
-    label, diff = split_patch(patch)
+    label, diff = split_mistake(patch)
     unknown = set(label.expect) - {check.name for check in assignment.checks}
     if unknown:
         raise BadInput(f"{patch}: Expect names {', '.join(sorted(unknown))}: no such check")
+    files = _changed(root, reference, alternatives, assignment, patch, diff)
+    return Exhibit(assignment.number, patch.stem, files, label)
+
+
+def _changed(
+    root: Path,
+    reference: Exhibit,
+    alternatives: Mapping[Path, Exhibit],
+    assignment: Assignment,
+    patch: Path,
+    diff: str,
+) -> Mapping[str, bytes]:
+    """The module that a diff makes of the reference or of an alternative."""
     target = PurePosixPath(diff.splitlines()[0].removeprefix("--- a/").split("\t")[0])
     if str(target) in reference.files:
         base, path = reference, str(target)
@@ -91,7 +127,7 @@ def _mistake(
         base, path = _base(root, alternatives, assignment, patch, target)
     files = dict(base.files)
     files[path] = _patched(patch, diff, target, files[path])
-    return Exhibit(assignment.number, patch.stem, files, label)
+    return files
 
 
 def _base(

@@ -1,4 +1,5 @@
-"""The header of a mistake's patch: what it is, who made it, what sees it, what helps."""
+"""The header of a patch: of a mistake what it is, who made it, what sees it, what helps; of a
+twin which mistake it is, and how it differs."""
 
 from __future__ import annotations
 
@@ -7,7 +8,8 @@ from pathlib import Path
 
 from ..errors import BadInput
 
-_KEYS = ("What", "Seen", "Expect", "Hint")
+_MISTAKE = ("What", "Seen", "Expect", "Hint")
+_TWIN = ("Twin", "Differs")
 
 
 @dataclass(frozen=True)
@@ -20,11 +22,21 @@ class Label:
     hint: str
 
 
-def split_patch(file: Path) -> tuple[Label, str]:
-    """The label and the diff of a `mistakes/*.patch`; they stand on either side of an empty line.
+def split_mistake(file: Path) -> tuple[Label, str]:
+    """The label and the diff of a `mistakes/*.patch`; raises `BadInput`."""
+    values, diff = _split(file, _MISTAKE)
+    expect = tuple(name.strip() for name in values["Expect"].split(";"))
+    return Label(values["What"], values["Seen"], expect, values["Hint"]), diff
 
-    Raises `BadInput` for a file that is not of that form.
-    """
+
+def split_twin(file: Path) -> tuple[str, str]:
+    """The slug of the mistake that a `twins/*.patch` mirrors, and the diff; raises `BadInput`."""
+    values, diff = _split(file, _TWIN)
+    return values["Twin"], diff
+
+
+def _split(file: Path, keys: tuple[str, ...]) -> tuple[dict[str, str], str]:
+    """The header, of exactly these keys, and the diff, on either side of an empty line."""
     head, gap, diff = file.read_text(encoding="utf-8").partition("\n\n")
     values: dict[str, str] = {}
     for line in head.splitlines():
@@ -32,9 +44,8 @@ def split_patch(file: Path) -> tuple[Label, str]:
         if not colon or not value.strip():
             raise BadInput(f"{file}: {line[:60]!r}, expected a line like 'What: ...'")
         values[key] = value.strip()
-    if tuple(values) != _KEYS:
-        raise BadInput(f"{file}: the header says {', '.join(values)}, expected {', '.join(_KEYS)}")
+    if tuple(values) != keys:
+        raise BadInput(f"{file}: the header says {', '.join(values)}, expected {', '.join(keys)}")
     if not gap or not diff.lstrip("\n").startswith("--- a/"):
         raise BadInput(f"{file}: no diff after the header, expected an empty line and '--- a/...'")
-    expect = tuple(name.strip() for name in values["Expect"].split(";"))
-    return Label(values["What"], values["Seen"], expect, values["Hint"]), diff
+    return values, diff

@@ -15,7 +15,7 @@ from rich.console import Console
 from raybook_grader.course import ImageCheck, load_course
 from raybook_grader.errors import BadInput
 from raybook_grader.museum import Exhibit, exhibits_of
-from raybook_grader.museum.label import split_patch
+from raybook_grader.museum.label import split_mistake
 from raybook_grader.museum.visit import Visit, Visitor, visit_all, with_museum
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -76,7 +76,7 @@ LABEL = "What: a\nSeen: b\nExpect: c; d\nHint: e\n\n--- a/src/x.c\n+++ b/src/x.c
 def test_a_label_is_read(tmp_path: Path) -> None:
     file = tmp_path / "x.patch"
     file.write_text(LABEL)
-    label, diff = split_patch(file)
+    label, diff = split_mistake(file)
     assert (label.what, label.seen, label.expect, label.hint) == ("a", "b", ("c", "d"), "e")
     assert diff.startswith("--- a/src/x.c")
 
@@ -95,7 +95,7 @@ def test_a_bad_label_is_refused(tmp_path: Path, old: str, new: str, message: str
     file = tmp_path / "x.patch"
     file.write_text(LABEL.replace(old, new))
     with pytest.raises(BadInput, match=message):
-        split_patch(file)
+        split_mistake(file)
 
 
 def test_a_patch_that_no_longer_applies_is_refused(tmp_path: Path) -> None:

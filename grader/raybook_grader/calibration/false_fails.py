@@ -1,0 +1,218 @@
+"""How often a right module's picture fails by chance: never, one hopes, in thousands of gradings.
+
+Each scene gets a pool of pictures of right modules, one a seed: half by the reference, the rest
+shared out among the alternatives. Gradings on disjoint seeds of the pool are independent; the
+others draw their seeds from it at random and are not, but there are more of them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.console import Console
+
+from ..checks.decode import decode
+from ..checks.program import Workshop
+from ..checks.reference import References
+from ..checks.rendering import PICTURE, Picture, picture_of
+from ..checks.scene import scene_binds
+from ..checks.subject import Subject
+from ..course import Assignment, ImageCheck, load_course
+from ..files import write_text
+from ..grading.key import Keys
+from ..jobs.pool import Died, run_jobs
+from ..jobs.progress import progress
+from ..judge.bias import verdict
+from ..judge.pixels import Image
+from ..kit import load_kit
+from ..museum import Exhibit
+from ..sandbox import Box
+from ..submissions import SubmittedFile
+
+POOL = 480
+"""Pictures of right modules for each check, the alternatives' and the reference's."""
+DRAWN = 200
+"""Gradings for each check whose seeds are drawn from the pool."""
+_POOL_SEED = 5_000_000
+"""Far from every seed that anything else uses."""
+
+Pictures = Mapping[int, NDArray[np.float32]]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """An image check with the right modules to try it on, the reference first."""
+
+    assignment: str
+    check: ImageCheck
+    right: tuple[Exhibit, ...]
+
+    @property
+    def name(self) -> str:
+        return f"{self.assignment} {self.check.name}"
+
+
+@dataclass(frozen=True)
+class Count:
+    """Gradings of right pictures and how many of them failed."""
+
+    disjoint: int
+    disjoint_failed: int
+    drawn: int
+    drawn_failed: int
+    pool: int
+
+    @property
+    def gradings(self) -> int:
+        return self.disjoint + self.drawn
+
+    @property
+    def failed(self) -> int:
+        return self.disjoint_failed + self.drawn_failed
+
+
+def trials_of(
+    assignments: Sequence[Assignment], exhibits: Mapping[str, Sequence[Exhibit]]
+) -> list[Trial]:
+    """One for each image check."""
+    return [
+        Trial(a.number, check, tuple(e for e in exhibits[a.number] if e.is_right))
+        for a in assignments
+        for check in a.checks
+        if isinstance(check, ImageCheck)
+    ]
+
+
+def count_false_fails(
+    root: Path, kit: Path, trials: Sequence[Trial], jobs: int, console: Console
+) -> dict[str, Count]:
+    """The counts by the trial's name; a trial that was counted before is not counted again."""
+    counts: dict[str, Count] = {}
+    with progress(console, "grading right pictures", len(trials)) as bar:
+        for trial, outcome in run_jobs(trials, Counter(root, kit), jobs):
+            if isinstance(outcome, Died):
+                raise RuntimeError(f"{trial.name}: {outcome.message}")
+            counts[trial.name] = outcome
+            bar.advance()
+    return counts
+
+
+@dataclass(frozen=True)
+class Counter:
+    """What a worker process is made from; calling it gives the function that counts."""
+
+    root: Path
+    kit: Path
+
+    def __call__(self) -> Callable[[Trial], Count]:
+        workshop = Workshop(load_course(self.root), load_kit(self.kit), Box())
+        return lambda trial: _kept(workshop, References(workshop), trial)
+
+
+def _kept(workshop: Workshop, references: References, trial: Trial) -> Count:
+    assignment = workshop.course.assignment(trial.assignment)
+    keys = Keys(workshop.course, workshop.kit)
+    made_from = [
+        keys.judged(assignment, {p: SubmittedFile(c) for p, c in e.files.items()})
+        for e in trial.right
+    ]
+    text = repr((made_from, trial.check, POOL, DRAWN, _POOL_SEED))
+    name = hashlib.sha256(text.encode()).hexdigest()[:32]
+    file = workshop.course.root / "build" / "calibration" / "chance" / f"{name}.json"
+    if file.is_file():
+        return Count(**json.loads(file.read_text(encoding="utf-8")))
+    count = _count(workshop, references, trial)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    write_text(file, json.dumps(asdict(count)))
+    return count
+
+
+def _count(workshop: Workshop, references: References, trial: Trial) -> Count:
+    picture = picture_of(trial.check)
+    size = 2 * trial.check.seeds
+    disjoint = drawn = disjoint_failed = drawn_failed = 0
+    rng = np.random.default_rng(1)
+    shares = _shares(len(trial.right), size)
+    first = _POOL_SEED
+    for exhibit, share in zip(trial.right, shares, strict=True):
+        seeds = range(first, first + share)
+        first += share
+        pool = dict(zip(seeds, _render(workshop, trial, exhibit, picture, seeds), strict=True))
+        # The reference is no twin of itself: paired with it, nothing could ever fail.
+        twins = None if exhibit is trial.right[0] else _reference(workshop, trial, picture, seeds)
+        for at in _disjoint(seeds, size):
+            disjoint += 1
+            disjoint_failed += _fails(references, trial, picture, pool, twins, at)
+        for _ in range(math.ceil(DRAWN * share / POOL)):
+            at = rng.choice(np.asarray(seeds), size, replace=False).tolist()
+            drawn += 1
+            drawn_failed += _fails(references, trial, picture, pool, twins, at)
+    return Count(disjoint, disjoint_failed, drawn, drawn_failed, first - _POOL_SEED)
+
+
+def _shares(count: int, size: int) -> list[int]:
+    """How many seeds each right module gets, in whole gradings."""
+    if count == 1:
+        return [POOL // size * size]
+    half = POOL // 2 // size * size
+    each = max((POOL - half) // (count - 1) // size, 1) * size
+    return [half, *[each] * (count - 1)]
+
+
+def _disjoint(seeds: range, size: int) -> Iterator[list[int]]:
+    for start in range(0, len(seeds) - size + 1, size):
+        yield list(seeds[start : start + size])
+
+
+def _fails(
+    references: References,
+    trial: Trial,
+    picture: Picture,
+    pool: Pictures,
+    twins: Pictures | None,
+    seeds: Sequence[int],
+) -> bool:
+    """One grading as the check does it: a second look where the first one fails."""
+    n = trial.check.seeds
+    said = verdict(
+        lambda at: [pool[seed] for seed in at],
+        references.statistics(picture),
+        trial.check.spp,
+        seeds=seeds[:n],
+        fresh_seeds=seeds[n:],
+        reference_renders=None if twins is None else lambda at: [twins[seed] for seed in at],
+    )
+    return said.status == "fail"
+
+
+def _reference(
+    workshop: Workshop, trial: Trial, picture: Picture, seeds: range
+) -> dict[int, NDArray[np.float32]]:
+    images = _render(workshop, trial, trial.right[0], picture, seeds)
+    return dict(zip(seeds, images, strict=True))
+
+
+def _render(
+    workshop: Workshop, trial: Trial, exhibit: Exhibit, picture: Picture, seeds: range
+) -> list[Image]:
+    """The module's own pictures; they must all come out, for it is right."""
+    assignment = workshop.course.assignment(trial.assignment)
+    module = workshop.compile_module(assignment, exhibit.files)
+    subject = Subject(workshop, assignment, module, workshop.renderer(module))
+    files = []
+    for seed in seeds:
+        result = subject.run(
+            subject.renderer,
+            picture.arguments(seed),
+            binds=scene_binds(workshop.course.root, picture.scene),
+            collect=[PICTURE],
+        )
+        files.append(result.files[PICTURE])
+    return decode(files, max_pixels=4 * picture.pixels)
