@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from ..course import ImageCheck
 from .scene import BOX_ROOT
@@ -23,13 +24,13 @@ class Picture:
     def pixels(self) -> int:
         return self.resolution[0] * self.resolution[1]
 
-    def arguments(self, seed: int, threads: int = 1) -> Sequence[str]:
-        """The renderer's command line, for a box that holds the scene's files."""
+    def arguments(self, seed: int, threads: int = 1, scene: Path | None = None) -> Sequence[str]:
+        """The renderer's command line, for a box that holds the scene's files if none is given."""
         width, height = self.resolution
         return [
             "--quiet", "--seed", str(seed), "--spp", str(self.spp), "--threads", str(threads),
             "--resolution", f"{width}x{height}", "--output", PICTURE,
-            f"{BOX_ROOT}/{self.scene}",
+            str(scene or f"{BOX_ROOT}/{self.scene}"),
         ]  # fmt: skip
 
 
