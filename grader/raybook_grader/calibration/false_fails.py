@@ -28,9 +28,10 @@ from ..files import write_text
 from ..grading.key import Keys
 from ..jobs.pool import Died, run_jobs
 from ..jobs.progress import progress
-from ..judge.bias import verdict
 from ..judge.exr import decode_exr
 from ..judge.pixels import Image
+from ..judge.sequential import sequential_verdict
+from ..judge.thresholds import ALL_TILES, THRESHOLDS
 from ..kit import load_kit
 from ..museum import Exhibit
 from ..sandbox import Box
@@ -181,10 +182,12 @@ def _fails(
 ) -> bool:
     """One grading as the check does it: a second look where the first one fails."""
     n = trial.check.seeds
-    said = verdict(
+    said = sequential_verdict(
         lambda at: [pool[seed] for seed in at],
         references.statistics(picture),
         trial.check.spp,
+        tile_sizes=ALL_TILES,
+        thresholds=THRESHOLDS,
         seeds=seeds[:n],
         fresh_seeds=seeds[n:],
         reference_renders=None if twins is None else lambda at: [twins[seed] for seed in at],

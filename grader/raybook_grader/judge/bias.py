@@ -76,7 +76,7 @@ def verdict(
         return BiasVerdict("fail", tuple(first))
     again, second = look(fresh_seeds) if first else (evidence, [])
     if again is None:
-        return _conclude(evidence, second, [], tile_sizes, thresholds)
+        return conclude(evidence, second, [], tile_sizes, thresholds)
     repeated = {reason.code for reason in second}
     confirmed = [reason for reason in first if reason.code in repeated and reason.code != "D"]
     if "D" in repeated:
@@ -87,16 +87,17 @@ def verdict(
         confirmed += filter(None, [dead_test(evidence, both, reference, thresholds)])
     codes = {reason.code for reason in confirmed}
     unconfirmed = [reason for reason in first if reason.code not in codes]
-    return _conclude(evidence, confirmed, unconfirmed, tile_sizes, thresholds)
+    return conclude(evidence, confirmed, unconfirmed, tile_sizes, thresholds)
 
 
-def _conclude(
+def conclude(
     evidence: Evidence,
     confirmed: list[Reason],
     unconfirmed: list[Reason],
     tile_sizes: Sequence[int],
     limits: Thresholds,
 ) -> BiasVerdict:
+    """The verdict of what was confirmed; the numbers are those of `evidence`."""
     noisy = evidence.noise_ratio > limits.noise_ratio
     noise = Reason("noise", evidence.noise_ratio, noise_sentence(evidence.noise_ratio))
     red, green, blue = (evidence.channels.value / evidence.channel_scale).tolist()

@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from .bias import FIRST_SEEDS, FRESH_SEEDS, Renders, verdict
+from .bias import FIRST_SEEDS, FRESH_SEEDS, Renders
 from .findings import BiasVerdict
 from .perceptual import PerceptualError, perceptual_error, score
 from .pixels import Image
 from .reference import ReferenceStatistics
+from .sequential import Kept, sequential_verdict
 from .thresholds import ALL_TILES, THRESHOLDS, Thresholds
 from .viewing import Viewing, viewing_of
 
@@ -46,15 +47,9 @@ def judge_image(
 
     Seeds are rendered once, however many parts look at them.
     """
-    first: list[Image] = []
-
-    def render(at: Sequence[int]) -> list[Image]:
-        images = [np.asarray(image) for image in render_seeds(at)]
-        if not first:
-            first.extend(images)
-        return images
-
-    bias = verdict(
+    render = Kept(render_seeds)
+    twins = None if reference_renders is None else Kept(reference_renders)
+    bias = sequential_verdict(
         render,
         reference,
         spp,
@@ -62,11 +57,13 @@ def judge_image(
         seeds=seeds,
         fresh_seeds=fresh_seeds,
         thresholds=thresholds,
-        reference_renders=reference_renders,
+        reference_renders=twins,
     )
-    if any(image.shape != (*reference.shape, 3) for image in first):
+    first = [seed for seed in seeds if seed in render.images]
+    if any(render.images[seed].shape != (*reference.shape, 3) for seed in first):
         return ImageJudgement(bias, None, None, 0.0)
-    stack = np.stack(first).astype(np.float32)
+    stack = np.stack(render(first)).astype(np.float32)
+    same = None if twins is None else np.stack(twins(first)).astype(np.float32)
     viewing = viewing or viewing_of(reference.mean)
-    visible = perceptual_error(stack, reference.mean, viewing)
+    visible = perceptual_error(stack, reference.mean, viewing, same)
     return ImageJudgement(bias, visible, stack.mean(axis=0), score(visible.excess, bias.status))

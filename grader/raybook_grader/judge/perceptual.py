@@ -43,13 +43,21 @@ class PerceptualError:
         }
 
 
-def perceptual_error(stack: Image, reference: Image, viewing: Viewing) -> PerceptualError:
-    """Of at least two renders (seeds, height, width, 3); what is no radiance counts as black."""
+def perceptual_error(
+    stack: Image, reference: Image, viewing: Viewing, twins: Image | None = None
+) -> PerceptualError:
+    """Of at least two renders (seeds, height, width, 3); what is no radiance counts as black.
+
+    `twins` are the reference's renders at the same seeds. Where they share the random numbers,
+    their noise is the picture's own, and is what is taken out.
+    """
     usable = displayable(stack)
     mean = usable.mean(axis=0, dtype=np.float64).astype(np.float32)
     value, error_map = flip(reference, mean, viewing)
-    twins = _noise_twins(usable, reference)
-    noise = [flip(reference, twin, viewing)[0] for twin in twins]
+    noisy = _noise_twins(usable, reference)
+    if twins is not None and _share_noise(usable, displayable(twins)):
+        noisy = [displayable(twins.mean(axis=0, dtype=np.float64).astype(np.float32))]
+    noise = [flip(reference, twin, viewing)[0] for twin in noisy]
     colour = colour_difference(reference, mean, viewing.white)
     return PerceptualError(value, float(np.mean(noise)), error_map, colour)
 
@@ -90,6 +98,12 @@ def displayable(image: Image) -> Image:
     """NaN, negative and minus infinity as black, and nothing too bright for single precision."""
     clean = np.nan_to_num(image, nan=0.0, posinf=_LARGEST, neginf=0.0)
     return np.clip(clean, 0.0, _LARGEST).astype(np.float32)
+
+
+def _share_noise(stack: Image, twins: Image) -> bool:
+    """Whether the noise cancels; independent renders would leave twice as much."""
+    left = (stack - twins).var(axis=0).sum(dtype=np.float64)
+    return bool(left < 0.25 * stack.var(axis=0).sum(dtype=np.float64))
 
 
 def _noise_twins(stack: Image, reference: Image) -> list[Image]:
