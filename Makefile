@@ -99,6 +99,11 @@ calibrate: ## [A=03] [FULL=1] judges all that is known to be right or wrong: the
 	@$(MAKE) kit
 	@$(grader) calibrate $(if $(A),--module $(A)) $(if $(FULL),--full) $(ARGS)
 
+references: ## renders the statistics that are committed in grader/statistics/
+	@.setup/setup.sh
+	@$(MAKE) kit
+	@$(grader) references
+
 # The reference as objects, for linking with one module of a student.
 kit: build/meshes/done ## what the grader links students' modules with: build/kit/
 	@$(MAKE) OPT=release EMBREE=no objects lto= config=kit
@@ -126,4 +131,5 @@ clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
 .PHONY: help setup build render test format check-format check-python check watch hint \
-    debug handout grade museum calibrate kit objects variance mitsuba fuzz clean
+    debug handout grade museum calibrate references kit objects variance mitsuba fuzz \
+    clean

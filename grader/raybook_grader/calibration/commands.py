@@ -10,11 +10,15 @@ from typing import TYPE_CHECKING
 
 from rich.console import Console
 
+from ..checks.program import Workshop
+from ..checks.reference import References
+from ..checks.shipping import pictures_of, ship, sweep
 from ..course import Assignment, load_course
 from ..errors import BadInput
 from ..files import write_text
+from ..kit import load_kit
 from ..museum.visit import with_museum
-from ..sandbox import require
+from ..sandbox import Box, require
 from .judging import Compiler
 from .run import Order, calibrate
 from .table import is_good, summary, to_json, to_markdown
@@ -28,7 +32,8 @@ _LOOKS = 5
 
 
 def add_commands(subparsers: Subparsers) -> None:
-    """Register `calibrate` with raybook-grader."""
+    """Register `calibrate` and `references` with raybook-grader."""
+    _add_references(subparsers)
     command = subparsers.add_parser(
         "calibrate",
         help="judge all that is known to be right or wrong, and print the confusion table",
@@ -50,6 +55,29 @@ def add_commands(subparsers: Subparsers) -> None:
         help="exhibits judged at once (default: one a core, here %(default)s)",
     )  # fmt: skip
     command.set_defaults(handler=_calibrate)
+
+
+def _add_references(subparsers: Subparsers) -> None:
+    command = subparsers.add_parser(
+        "references",
+        help="render the statistics of the references that are committed with the course",
+        description="Renders what is missing in grader/statistics/, and removes what no image "
+        "check asks for any more.",
+    )
+    command.set_defaults(handler=_references)
+
+
+def _references(arguments: argparse.Namespace) -> int:
+    require()
+    course = load_course(_CHECKOUT)
+    references = References(Workshop(course, load_kit(_CHECKOUT / "build" / "kit"), Box()))
+    pictures = pictures_of(course.assignments)
+    for picture in pictures:
+        done = ship(references, picture)
+        print(f"{'rendered' if done else 'there'}: {references.shipped_file(picture).name}")
+    for name in sweep(references, pictures):
+        print(f"removed: {name}")
+    return 0
 
 
 def _calibrate(arguments: argparse.Namespace) -> int:

@@ -10,8 +10,8 @@ from rich.console import Console
 
 from ..checks.program import Workshop
 from ..checks.reference import References
-from ..checks.rendering import picture_of
-from ..course import Assignment, ImageCheck, load_course
+from ..checks.shipping import pictures_of
+from ..course import Assignment, load_course
 from ..grading.result import ModuleResult
 from ..jobs.progress import progress
 from ..kit import load_kit
@@ -95,13 +95,7 @@ def _render_references(order: Order, assignments: Sequence[Assignment], console:
     """Render what is not there yet, on all cores, before the workers need it."""
     workshop = Workshop(load_course(order.root), load_kit(order.kit), Box())
     references = References(workshop)
-    pictures = {
-        picture_of(check)
-        for a in assignments
-        for check in a.checks
-        if isinstance(check, ImageCheck)
-    }
-    for picture in sorted(pictures, key=lambda picture: picture.scene):
+    for picture in pictures_of(assignments):
         if not references.is_ready(picture):
             progress(console, "", 0).say(f"rendering the reference of {picture.scene}, once")
             references.statistics(picture)

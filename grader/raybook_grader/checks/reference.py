@@ -2,6 +2,10 @@
 
 They lie under `build/reference/`, in a folder named by the hash of all they were made from, so
 that a change in the renderer, the scene or the settings makes new ones.
+
+The statistics of the course's own scenes are shipped, too, in `grader/statistics/`: what a
+picture converges to does not change with the renderer's version. `raybook-grader references`
+makes them again, and a test compares them with the renderer as it is.
 """
 
 from __future__ import annotations
@@ -42,13 +46,26 @@ class References:
 
     def is_ready(self, picture: Picture) -> bool:
         """Whether `statistics` would answer at once."""
-        return self._file(picture).is_file()
+        return self.shipped_file(picture).is_file() or self._file(picture).is_file()
 
     def renders(self, picture: Picture) -> Callable[[Sequence[int]], list[Image]]:
         """The reference's renders at any seeds."""
         return lambda seeds: [self._render(picture, seed) for seed in seeds]
 
+    def shipped_file(self, picture: Picture) -> Path:
+        """Where the statistics of a picture are committed; they depend on the scene alone."""
+        root, (width, height) = self._workshop.course.root, picture.resolution
+        made_from = (scene_fingerprint(root, picture.scene), picture.resolution, VERSION)
+        key = hashlib.sha256(repr(made_from).encode()).hexdigest()[:16]
+        name = f"{Path(picture.scene).stem}-{width}x{height}-{key}.npz"
+        return root / "grader" / "statistics" / name
+
     def _statistics(self, picture: Picture) -> ReferenceStatistics:
+        shipped = self.shipped_file(picture)
+        return ReferenceStatistics.load(shipped) if shipped.is_file() else self.rendered(picture)
+
+    def rendered(self, picture: Picture) -> ReferenceStatistics:
+        """The statistics of this very renderer's pictures."""
         file = self._file(picture)
         with _locked(file.parent):
             if not file.is_file():

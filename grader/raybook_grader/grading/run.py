@@ -12,8 +12,8 @@ from rich.console import Console
 
 from ..checks.program import HarnessFault
 from ..checks.reference import References
-from ..checks.rendering import picture_of
-from ..course import Course, ImageCheck
+from ..checks.shipping import pictures_of
+from ..course import Course
 from ..database import Database, Module, Student
 from ..errors import BadInput
 from ..jobs.pool import Died, run_jobs
@@ -104,14 +104,8 @@ def _prepare(worker: Worker, numbers: Collection[str], console: Console) -> None
     """Render the references that are not there yet, on all cores, before the workers need them."""
     workshop = worker.workshop()
     references = References(workshop)
-    pictures = {
-        picture_of(check)
-        for assignment in workshop.course.assignments
-        if assignment.number in numbers
-        for check in assignment.checks
-        if isinstance(check, ImageCheck)
-    }
-    for picture in sorted(pictures, key=lambda picture: picture.scene):
+    needed = [a for a in workshop.course.assignments if a.number in numbers]
+    for picture in pictures_of(needed):
         if references.is_ready(picture):
             continue
         say = progress(console, "", 0).say
