@@ -49,8 +49,10 @@ def reference_of(root: Path, assignment: Assignment) -> Exhibit:
     return Exhibit(assignment.number, "reference", files)
 
 
-def exhibits_of(root: Path, assignment: Assignment) -> list[Exhibit]:
+def exhibits_of(root: Path, assignment: Assignment, *, strict: bool = True) -> list[Exhibit]:
     """The reference, the alternatives and the mistakes; raises `BadInput` for one that is broken.
+
+    ``strict`` asks that each check that a label names is one of the assignment's.
 
     An alternative is `alternatives/slug.c` where the module owns one file, else a folder
     `alternatives/slug` with files of the owned names; those it lacks are the reference's.
@@ -61,6 +63,10 @@ def exhibits_of(root: Path, assignment: Assignment) -> list[Exhibit]:
         _mistake(root, reference, alternatives, assignment, patch)
         for patch in sorted((assignment.folder / "mistakes").glob("*.patch"))
     ]
+    names = {check.name for check in assignment.checks}
+    for mistake in mistakes if strict else ():
+        if unknown := set(mistake.label.expect if mistake.label else ()) - names:
+            raise BadInput(f"{mistake.name}: Expect names {', '.join(unknown)}: no such check")
     return [reference, *alternatives.values(), *mistakes]
 
 
@@ -104,9 +110,6 @@ def _mistake(
 ) -> Exhibit:
     """The module with the mistake in it."""
     label, diff = split_mistake(patch)
-    unknown = set(label.expect) - {check.name for check in assignment.checks}
-    if unknown:
-        raise BadInput(f"{patch}: Expect names {', '.join(sorted(unknown))}: no such check")
     files = _changed(root, reference, alternatives, assignment, patch, diff)
     return Exhibit(assignment.number, patch.stem, files, label)
 

@@ -17,7 +17,7 @@ def known_mistakes(
     """Judge the mistakes of one assignment; pictures only for those that nothing else sees."""
     if not (assignment.folder / "mistakes").is_dir():
         return []
-    mistakes = [e for e in exhibits_of(worker.root, assignment) if not e.is_right]
+    mistakes = [e for e in exhibits_of(worker.root, assignment, strict=False) if not e.is_right]
     quick = visit_all(Visitor(worker.root, worker.kit, images=False), mistakes, jobs, console)
     unseen = [e for e in mistakes if not quick[e.name].failed]
     slow = visit_all(Visitor(worker.root, worker.kit, images=True), unseen, jobs, console)
