@@ -88,8 +88,8 @@ EARNED = {  # the least and the most of the tree's points; a walk earns all of i
     "sah-sweep": (1.0, 1.0),
     "sah-12-bins": (1.0, 1.0),
     "sah-one-a-leaf": (1.0, 1.0),
-    "lbvh-morton": (0.7, 0.95),
-    "median-quickselect": (0.35, 0.6),
+    "lbvh-morton": (0.85, 0.99),
+    "median-quickselect": (0.4, 0.65),
 }
 
 
