@@ -104,13 +104,15 @@ $(stamp): FORCE
 # One program for each test file: Unity, the test, and all objects but main's.
 unity := $(or $(UNITY_ROOT),build/unity)
 testdir := build/test/$(config)
+# What a test said before it crashed is not lost.
+unity_flags := -isystem $(unity) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE_FLUSH_STDOUT
 # gcc takes what a test asserts for something that may not have happened.
 test_warnings := $(if $(findstring gcc,$(CC)),-Wno-maybe-uninitialized)
 test_programs := $(patsubst %.c,$(testdir)/%,$(tests))
 
 $(testdir)/%: %.c $(filter-out $(objdir)/main.o,$(objects)) $(unity)/unity.c
 	@mkdir -p $(@D)
-	$(quiet_cc) $(CC) $(filter-out -Wpedantic -Werror,$(cflags)) $(test_warnings) -isystem $(unity) -DUNITY_INCLUDE_DOUBLE -MMD -MP \
+	$(quiet_cc) $(CC) $(filter-out -Wpedantic -Werror,$(cflags)) $(test_warnings) $(unity_flags) -MMD -MP \
 	    -MF $@.d $< $(unity)/unity.c $(filter %.o,$^) $(ldlibs) -o $@
 
 # What a test program outside of src/ is made with and linked with.
@@ -135,7 +137,7 @@ programs: $(program) $(TESTS:%.c=$(testdir)/%)
 compile_commands.json: $(stamp) src/build.mk
 	@{ printf '['; comma=''; for file in $(sources) $(tests); do \
 	    printf '%s\n{"directory": "%s", "file": "%s", "command": "%s -c %s"}' "$$comma" \
-	        "$(CURDIR)" "$$file" '$(CC) $(filter-out -flto%,$(cflags)) -isystem $(unity) -DUNITY_INCLUDE_DOUBLE' "$$file"; \
+	        "$(CURDIR)" "$$file" '$(CC) $(filter-out -flto%,$(cflags)) $(unity_flags)' "$$file"; \
 	    comma=','; done; printf '\n]\n'; } > $@.new
 	@mv $@.new $@
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from ..errors import BadInput
 from .make import Maker
 from .path_log import FirstDifference, first_difference, log_options
 from .project import Assignment, PathLog, Project
+from .running import run_limited
 
 Pixel = tuple[int, int]
 
@@ -97,12 +97,11 @@ def _log(renderer: Path, root: Path, picture: PublicPicture, pixel: Pixel) -> st
     with tempfile.TemporaryDirectory(prefix="raybook-") as folder:
         options = [*picture.settings, *log_options(pixel, Path(folder, "pixel.exr"))]
         command = [str(renderer), picture.scene, *options]
-        try:
-            done = subprocess.run(command, cwd=root, capture_output=True, timeout=_SECONDS)
-        except subprocess.TimeoutExpired:
-            raise BadInput(f"the renderer was not done after {_SECONDS} s") from None
-    words = clean(done.stdout, lines=100_000)
-    if done.returncode != 0:
-        said = clean(done.stderr, 10)
-        raise BadInput(f"the renderer ended with {done.returncode}:\n{words}\n{said}")
+        done = run_limited(command, root, _SECONDS)
+    if done.code is None:
+        raise BadInput(f"the renderer was not done after {_SECONDS} s")
+    words = clean(done.out, lines=100_000)
+    if done.code != 0:
+        said = clean(done.err, 10)
+        raise BadInput(f"the renderer ended with {done.code}:\n{words}\n{said}")
     return words

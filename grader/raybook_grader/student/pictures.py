@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ from ..judge.exr import UnusableImage, read_exr
 from ..judge.findings import Reason
 from ..judge.pixels import Image, luminance
 from ..judge.reference import ReferenceStatistics
+from .running import all_threads, run_limited
 
 _FRESH = 1000
 """The second look's seeds are the first look's plus this, as in the grader."""
@@ -94,15 +94,14 @@ def render_seeds(
 
 
 def _run(command: list[str], root: Path, seconds: float) -> None:
-    try:
-        done = subprocess.run(command, cwd=root, capture_output=True, timeout=seconds)
-    except subprocess.TimeoutExpired:
-        raise NoPicture(f"the renderer was not done after {seconds:g} s") from None
-    if done.returncode < 0:
-        raise NoPicture(f"the renderer crashed (signal {-done.returncode})")
-    if done.returncode != 0:
-        said = clean(done.stderr, 5).strip()
-        raise NoPicture(f"the renderer ended with exit code {done.returncode}: {said}")
+    ended = run_limited(command, root, seconds, all_threads())
+    if ended.code is None:
+        raise NoPicture(f"the renderer was not done after {seconds:g} s")
+    if ended.code < 0:
+        raise NoPicture(f"the renderer crashed (signal {-ended.code})")
+    if ended.code != 0:
+        said = clean(ended.err, 5).strip()
+        raise NoPicture(f"the renderer ended with exit code {ended.code}: {said}")
 
 
 def _worst_pixel(

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 import signal
-import subprocess
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..checks.unity import FailedTest, UnityReport, read_unity
 from ..checks.words import clean
+from .running import run_limited
 
 _STUB = re.compile(r"^assignment \d\d [^:]*: not implemented yet, ([^:\n]+:\d+):", re.MULTILINE)
 _BEGIN = re.compile(r"(?:static )?void (\w+)\(void\)\s*$")
@@ -42,15 +42,11 @@ class TestRun:
 
 def run_tests(program: Path, root: Path, source: str, seconds: float) -> TestRun:
     """Run the program of the Unity tests in ``source``, at most so long."""
-    try:
-        done = subprocess.run([program], cwd=root, capture_output=True, timeout=seconds)
-        said, ending = done.stdout + b"\n" + done.stderr, done.returncode
-    except subprocess.TimeoutExpired as late:
-        said, ending = (late.stdout or b"") + b"\n" + (late.stderr or b""), None
-    words = clean(said, lines=100_000)
+    ended = run_limited([str(program)], root, seconds)
+    words = clean(ended.out + b"\n" + ended.err, lines=100_000)
     report = read_unity(words)
     left = tuple(dict.fromkeys(_STUB.findall(words)))
-    return TestRun(report, _stopped(report, ending, seconds), left, _places(root, source))
+    return TestRun(report, _stopped(report, ended.code, seconds), left, _places(root, source))
 
 
 def _places(root: Path, source: str) -> dict[str, str]:

@@ -83,11 +83,12 @@ def test_a_warning_costs_no_test(folder: Path) -> None:
 
 def test_a_crash(folder: Path) -> None:
     text = right()
-    place = text.index("{\n", text.index("triangle_intersect")) + 2
-    write_module(folder, text[:place] + "    *(volatile int *)0 = 1;\n" + text[place:])
+    place = text.index("    return true;", text.index("hit->b2 ="))
+    crash = "    if (hit->b1 > 0.8f)\n        *(volatile int *)0 = 1;\n"
+    write_module(folder, text[:place] + crash + text[place:])
     checked = run_make(folder, "check", "A=01")
     assert checked.returncode != 0
-    assert "the program crashed in the first test (SIGSEGV)" in checked.stdout
+    assert "crashed in the test after edges_belong_to_the_triangle (SIGSEGV)" in checked.stdout
 
 
 def test_unknown_assignments_are_named(folder: Path) -> None:

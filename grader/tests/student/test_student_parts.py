@@ -87,6 +87,7 @@ SOURCE = "static void one(void)\n{\n}\n\nstatic void two(void)\n{\n}\n"
     [
         ("echo t.c:2:one:PASS; kill -SEGV $$", "crashed in the test after one (SIGSEGV)"),
         ("echo t.c:2:one:PASS; sleep 60", "did not end within 0.5 s: stuck in the test after one"),
+        ("while :; do :; done", "did not end within 0.5 s"),
         ("exit 3", "ended too early, in the first test (exit code 3)"),
         ("echo t.c:2:one:PASS; echo 1 Tests 0 Failures 0 Ignored", ""),
     ],

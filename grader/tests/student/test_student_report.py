@@ -58,6 +58,8 @@ def test_timings_are_a_table() -> None:
     for cell in ("35", "2 ms", "0.25 s", "2.50 million", "8.0", "2.0"):
         assert f"<td>{cell}</td>" in html
     assert "there is no file scenes/none.json" in html
+    heading, row = re.findall(r"<tr>(.*?)</tr>", html)[:2]
+    assert heading.count("<th>") == row.count("<td>")
 
 
 def test_what_is_not_drawn_is_said() -> None:

@@ -25,7 +25,7 @@ from .renderings import NotDrawn, Renderer, numbers_of, split_order
 
 _STATES = {State.DONE: "done", State.FAILING: "begun", State.TO_DO: "not begun"}
 _HEADINGS = ("scene", "primitives", "tree built", "rendered", "samples/s", "boxes a ray",
-             "primitives a ray", "memory")  # fmt: skip
+             "primitives a ray")  # fmt: skip
 
 
 def page_html(text: str, renderer: Renderer, check: Callable[[], Sequence[Finding]]) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import shlex
-import subprocess
 import tempfile
 from dataclasses import dataclass
 from functools import cache
@@ -13,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ...checks.words import clean
+from ..running import all_threads, run_limited
 
 _SECONDS = 60
 """What one rendering may take: a report should not wait for a tree that is not written yet."""
@@ -60,14 +60,14 @@ def _render(program: Path, root: Path, scene: str, options: str) -> Rendering:
         outputs = ["-q", "-o", str(exr), "--png", str(png), "--stats", str(stats)]
         try:
             command = [str(program), scene, *shlex.split(options), *outputs]
-            done = subprocess.run(command, cwd=root, capture_output=True, timeout=_SECONDS)
-        except subprocess.TimeoutExpired:
-            raise NotDrawn(f"{scene} was not drawn within {_SECONDS} seconds") from None
         except ValueError as fault:
             raise NotDrawn(f"the options {options!r} cannot be read: {fault}") from None
-        if done.returncode != 0:
-            said = clean(done.stderr, 3)
-            raise NotDrawn(f"{scene} cannot be drawn: {said or f'exit code {done.returncode}'}")
+        done = run_limited(command, root, _SECONDS, all_threads())
+        if done.code is None:
+            raise NotDrawn(f"{scene} was not drawn within {_SECONDS} seconds")
+        if done.code != 0:
+            said = clean(done.err, 3)
+            raise NotDrawn(f"{scene} cannot be drawn: {said or f'exit code {done.code}'}")
         return Rendering(png.read_bytes(), json.loads(stats.read_text(encoding="utf-8")))
 
 
