@@ -1,29 +1,38 @@
-/* direct_lighting.h - assignment 05: the light that arrives without detours. */
+/* direct_lighting.h - assignment 05: what one light makes of a point. */
 #ifndef RAYBOOK_INTEGRATORS_DIRECT_LIGHTING_H
 #define RAYBOOK_INTEGRATORS_DIRECT_LIGHTING_H
 
 #include "integrators/tracer.h"
 
-/* The radiance that the vertex sends towards its `outgoing` because of one
- * picked direction to a light: BSDF x arriving radiance x cosine / pdf, and
- * nothing where the light is hidden.
+/* The radiance (W m^-2 sr^-1) that the vertex v sends towards v->outgoing
+ * because of the light that reaches it from s->direction:
  *
- * weigh: the light may also be found by a scattered ray that hits it, so this
- * way of finding it gets its share only: the power heuristic of E. Veach,
- * "Robust Monte Carlo Methods for Light Transport Simulation", 1997, section
- * 9.2.4. pick_probability: how likely this light was to be asked. */
-rgb direct_light(const struct tracer *t, const struct vertex *v,
-                 const struct light *light, float pick_probability, bool weigh);
-
-/* The same for the scene's lights: all of them, or one that stands for all. */
-rgb direct_lighting(const struct tracer *t, const struct vertex *v, bool weigh);
-
-/* How likely direct_lighting would have picked this direction to this light:
- * probability of the light times density of the direction, per steradian. */
-float direct_lighting_pdf(const struct scene *scene, uint32_t light, vec3 point,
-                          vec3 direction, vec3 position, vec3 normal);
-
-/* pdf^2 / (pdf^2 + other^2) */
-float power_heuristic(float pdf, float other);
+ *     material_eval(outgoing, s->direction) x s->radiance x |cosine| / s->pdf
+ *
+ * to about one part in 10^4, with the cosine between s->direction and the
+ * shading normal, both of length one. All these directions point away from
+ * the surface. v->object->material, which is not NULL, says by itself where a
+ * surface is black: on its back, say, or where the light is behind it.
+ *
+ * Black where anything blocks the light. The way that must be free goes from
+ * the vertex to s->target, or in s->direction for ever where s->infinite
+ * (then s->target means nothing). Every object blocks, glass too. The surface
+ * itself never does, nor does what lies beyond the target, nor the surface
+ * that the target lies on: a lamp may lie on a table. What stands between
+ * blocks however near to either end it is, down to 10^-5 of the way's length,
+ * or of the largest coordinate where that is larger; closer than that either
+ * answer is right. No other length is special: a scene may be a millimetre wide
+ * or a kilometre. scene_segment_blocked and scene_direction_blocked see to all
+ * of that.
+ *
+ * s comes from light_sample, which never gives a pdf of 0. For a light without
+ * extent (s->delta) pdf is 1 and `radiance` is the irradiance on a surface that
+ * faces the light: the formula is the same.
+ *
+ * Not asked: other lights, light that comes by detours, ambient light, what the
+ * vertex emits. Changes nothing but the counters of the scene's queries; may
+ * be called from many threads at once. */
+rgb direct_light(const struct scene *scene, const struct vertex *v,
+                 const struct light_sample *s);
 
 #endif

@@ -2,7 +2,8 @@
 #include "integrators/path.h"
 
 #include "integrators/bounce.h"
-#include "integrators/direct_lighting.h"
+#include "integrators/mis.h"
+#include "integrators/next_event.h"
 
 /* A path under way. */
 struct path {
@@ -43,10 +44,9 @@ static void add_emitted(struct path *p, const struct vertex *v)
         return;
     float asked = 0.0f;
     if (!p->specular)
-        asked = direct_lighting_pdf(p->t->scene, (uint32_t)v->object->light,
-                                    p->from, vec3_negate(v->outgoing),
-                                    v->surface.position,
-                                    v->surface.geometric_normal);
+        asked = next_event_pdf(p->t->scene, (uint32_t)v->object->light, p->from,
+                               vec3_negate(v->outgoing), v->surface.position,
+                               v->surface.geometric_normal);
     add(p, emitted, share_of_hit(p, asked));
 }
 
@@ -61,8 +61,8 @@ static void add_environment(struct path *p)
     vec3 nowhere = vec3_make(0.0f, 0.0f, 0.0f);
     float asked = 0.0f;
     if (!p->specular)
-        asked = direct_lighting_pdf(scene, (uint32_t)scene->environment,
-                                    p->from, direction, nowhere, nowhere);
+        asked = next_event_pdf(scene, (uint32_t)scene->environment, p->from,
+                               direction, nowhere, nowhere);
     add(p, radiance, share_of_hit(p, asked));
 }
 
@@ -70,7 +70,7 @@ static void ask_lights(struct path *p, const struct vertex *v)
 {
     if (p->profile == PROFILE_RW)
         return;
-    rgb found = direct_lighting(p->t, v, p->profile == PROFILE_MIS);
+    rgb found = next_event(p->t, v, p->profile == PROFILE_MIS);
     p->radiance = rgb_add(p->radiance, rgb_mul(p->throughput, found));
 }
 

@@ -64,16 +64,17 @@ void path_log_miss(struct path_log *log)
 
 void path_log_light(struct path_log *log, const struct scene *scene,
                     const struct light *light, const struct light_sample *s,
-                    rgb scattered, bool hidden)
+                    rgb bsdf, rgb found)
 {
     if (log == NULL)
         return;
-    line(log, "  asks light %td (%s): direction " POINT_FORMAT ", %s",
-         light - scene->lights, light_kinds[light->kind], POINT(s->direction),
-         hidden ? "hidden" : "seen");
+    line(log, "  asks light %td (%s): direction " POINT_FORMAT,
+         light - scene->lights, light_kinds[light->kind], POINT(s->direction));
     line(log, "    radiance " POINT_FORMAT ", bsdf " POINT_FORMAT ", %s %.5g",
-         COLOR(s->radiance), COLOR(scattered), s->delta ? "delta, pdf" : "pdf",
+         COLOR(s->radiance), COLOR(bsdf), s->delta ? "delta, pdf" : "pdf",
          (double)s->pdf);
+    line(log, "    gives " POINT_FORMAT "%s", COLOR(found),
+         rgb_is_black(found) && !rgb_is_black(bsdf) ? ": hidden" : "");
 }
 
 void path_log_scatter(struct path_log *log, const struct scatter *way)

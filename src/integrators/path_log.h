@@ -23,7 +23,7 @@ void path_log_hit(struct path_log *log, const struct scene *scene,
 void path_log_miss(struct path_log *log);
 void path_log_light(struct path_log *log, const struct scene *scene,
                     const struct light *light, const struct light_sample *s,
-                    rgb scattered, bool hidden);
+                    rgb bsdf, rgb found);
 void path_log_scatter(struct path_log *log, const struct scatter *way);
 void path_log_found(struct path_log *log, rgb radiance, float share,
                     rgb throughput);

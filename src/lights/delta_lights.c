@@ -1,11 +1,11 @@
 /* delta_lights.c - see delta_lights.h. */
 #include "lights/delta_lights.h"
 
-#include "base/constants.h"
+#include "lights/point_light.h"
 
-/* The direction to the light's position, and 1 / d^2. */
+/* All of a sample but its radiance, and how far away the light is. */
 static bool look_at_light(const struct light *light, vec3 point,
-                          struct light_sample *out, float *inverse_square)
+                          struct light_sample *out, float *out_distance)
 {
     vec3 way = vec3_sub(light->position, point);
     float distance = vec3_length(way);
@@ -16,17 +16,17 @@ static bool look_at_light(const struct light *light, vec3 point,
     out->infinite = false;
     out->delta = true;
     out->pdf = 1.0f;
-    *inverse_square = 1.0f / (distance * distance);
+    *out_distance = distance;
     return true;
 }
 
 bool point_light_sample(const struct light *light, vec3 point,
                         struct light_sample *out)
 {
-    float inverse_square;
-    if (!look_at_light(light, point, out, &inverse_square))
+    float distance;
+    if (!look_at_light(light, point, out, &distance))
         return false;
-    out->radiance = rgb_scale(light->flux, inverse_square / (4.0f * PI));
+    out->radiance = point_light_irradiance(light->flux, distance);
     return true;
 }
 
@@ -56,11 +56,12 @@ float spot_light_falloff(const struct light *light, float cosine)
 bool spot_light_sample(const struct light *light, vec3 point,
                        struct light_sample *out)
 {
-    float inverse_square;
-    if (!look_at_light(light, point, out, &inverse_square))
+    float distance;
+    if (!look_at_light(light, point, out, &distance))
         return false;
     float cosine = -vec3_dot(light->direction, out->direction);
     float falloff = spot_light_falloff(light, cosine);
-    out->radiance = rgb_scale(light->intensity, falloff * inverse_square);
+    out->radiance =
+        rgb_scale(light->intensity, falloff * (1.0f / (distance * distance)));
     return true;
 }

@@ -6,7 +6,7 @@
 
 #include "lights/light.h"
 
-/* Irradiance flux / (4 pi d^2). false at the light itself. */
+/* Irradiance by point_light.h. false at the light itself. */
 bool point_light_sample(const struct light *light, vec3 point,
                         struct light_sample *out);
 
