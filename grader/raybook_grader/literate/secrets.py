@@ -24,7 +24,7 @@ SOLUTION_LENGTH = 12  # characters without white space, at least
 # A hidden test is full of common lines; a longer one is its own.
 INSTRUCTOR_LENGTH = 20
 INSTRUCTOR_LETTERS = 8  # rows of numbers are alike
-INSTRUCTOR_FOLDERS = ("hidden", "mistakes", "alternatives")
+INSTRUCTOR_FOLDERS = ("hidden", "mistakes", "alternatives", "twins")
 
 _CODE = (".c", ".h", ".inc", ".py")
 _PATCH = (".patch", ".diff")
