@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accel/aabb.h"
 #include "base/counters.h"
 #include "sampling/sampler.h"
 

@@ -16,8 +16,8 @@ import numpy as np
 
 from ..judge.pixels import Image
 
-_SHADES = 100
-"""Values that a picture has at least: a noisy black or a flat colour is none."""
+_COLOURS = 3
+"""Colours that a picture has at least; what the stubs draw, flat balls on black, has four."""
 
 
 def compile_commands_faults(content: bytes, sources: Sequence[str]) -> list[str]:
@@ -70,6 +70,6 @@ def picture_faults(pixels: Image, resolution: tuple[int, int]) -> list[str]:
         return [f"it has {width} x {height} pixels, expected {resolution[0]} x {resolution[1]}"]
     if not np.isfinite(pixels).all() or (pixels < 0).any():
         return ["some of its pixels are NaN, infinite or negative"]
-    if len(np.unique(pixels)) < _SHADES:
+    if len(np.unique(pixels.reshape(-1, pixels.shape[2]), axis=0)) < _COLOURS:
         return ["it shows nothing: hardly two of its pixels differ"]
     return []

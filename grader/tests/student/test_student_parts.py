@@ -25,7 +25,8 @@ from raybook_grader.student.watch import watch
 LOG = """\
 sample 0 through (28.9, 20.4): from (0, 0.987, 3.87) along (-0.0325666, 0.122076, -0.991986)
     hit object 0 (mesh, diffuse) at t = 4.91514, (-0.160069, 1.58702, -1.00575)
-      asks light 0 (point): direction (-0.47, 0.55, 0.68), seen
+      asks light 0 (point): direction (-0.47, 0.55, 0.68)
+        gives (0.5, 0.5, 1)
   = (0.5, 0.5, 1)
 sample 1 through (28.3, 20.4): from (0, 0.987, 3.87) along (-0.0387033, 0.122558, -0.991706)
     leaves the scene
@@ -37,17 +38,18 @@ sample 1 through (28.3, 20.4): from (0, 0.987, 3.87) along (-0.0387033, 0.122558
     ("old", "new", "step", "sample", "about"),
     [
         ("t = 4.91514", "t = 4.95", 1, 0, "which object"),
-        ("seen", "hidden", 2, 0, "the point on the light"),
+        ("0.55, 0.68", "0.55, -0.68", 2, 0, "the direction to the light"),
+        ("gives (0.5, 0.5, 1)", "gives (0, 0, 0)", 3, 0, "what comes of that light"),
         ("object 0", "object 1", 1, 0, "which object"),
         (
             "    leaves the scene",
             "    hit object 2 (rect, diffuse) at t = 1, (0, 0, 0)",
-            5,
+            6,
             1,
             "whether",
         ),
-        ("  = (0, 0, 0)\n", "", 6, 1, "the light of the whole path"),
-        ("(0.5, 0.5, 1)", "(nan, 0.5, 1)", 3, 0, "the light of the whole path"),
+        ("  = (0, 0, 0)\n", "", 7, 1, "the light of the whole path"),
+        ("= (0.5, 0.5, 1)", "= (nan, 0.5, 1)", 4, 0, "the light of the whole path"),
     ],
 )
 def test_first_difference(old: str, new: str, step: int, sample: int, about: str) -> None:
