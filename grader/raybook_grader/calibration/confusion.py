@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from ..checks.result import CheckResult, Status
 from ..course import Assignment, ImageCheck, UnitCheck
 from ..grading.result import ModuleResult
 from ..museum import Exhibit
+from ..museum.visit import faults
 from ..scoring import Verdict
-
-_FINE = (Status.PASSED, Status.UNCONFIRMED, Status.NOT_RUN)
 
 
 @dataclass(frozen=True)
@@ -69,8 +67,9 @@ def row_of(assignment: Assignment, exhibit: Exhibit, results: Sequence[ModuleRes
     first = results[0]
     pictures = [c.name for c in assignment.checks if isinstance(c, ImageCheck)]
     public = [c.name for c in assignment.checks if isinstance(c, UnitCheck)]
-    failed = [check.name for check in first.checks if _saw(check, exhibit)]
-    counts = {name: sum(_failed(result, name) for result in results) for name in pictures}
+    failed = list(faults(exhibit, first.checks))
+    seen = [set(faults(exhibit, result.checks)) for result in results]
+    counts = {name: sum(name in found for found in seen) for name in pictures}
     return Row(
         exhibit,
         first,
@@ -79,15 +78,3 @@ def row_of(assignment: Assignment, exhibit: Exhibit, results: Sequence[ModuleRes
         counts,
         len(results),
     )
-
-
-def _failed(result: ModuleResult, name: str) -> bool:
-    return any(c.name == name and c.status not in (*_FINE, Status.PARTIAL) for c in result.checks)
-
-
-def _saw(check: CheckResult, exhibit: Exhibit) -> bool:
-    """A picture that is only noisier, and right code that is only slow, are not wrong."""
-    tolerated = check.kind == "image" or (exhibit.is_right and check.kind == "cost")
-    if tolerated and check.status is Status.PARTIAL:
-        return False
-    return check.status not in _FINE

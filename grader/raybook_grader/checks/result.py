@@ -28,6 +28,10 @@ class Status(StrEnum):
     INTERNAL_ERROR = "internal-error"
 
 
+NO_FAULT = (Status.PASSED, Status.UNCONFIRMED, Status.NOT_RUN, Status.INTERNAL_ERROR)
+"""Statuses that say nothing against the module."""
+
+
 @dataclass(frozen=True)
 class CheckResult:
     """One check of one module.

@@ -7,10 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from ..checks.result import CheckResult, Status
+from ..checks.result import NO_FAULT, CheckResult, Status
 from .trace import likeness
 
-_FINE = (Status.PASSED, Status.UNCONFIRMED, Status.NOT_RUN, Status.INTERNAL_ERROR)
 _WEIGHTS = {"build": 0.25, "unit": 0.5, "image": 1.0, "cost": 0.5, "robust": 0.5}
 _PROBE = 2.0
 """A probe has thousands of cases, and says the most."""
@@ -84,12 +83,12 @@ def _alike(a: CheckResult, b: CheckResult) -> float:
 
 
 def _wrong_by_name(checks: Sequence[CheckResult]) -> Mapping[str, CheckResult]:
-    return {check.name: check for check in checks if check.status not in _FINE}
+    return {check.name: check for check in checks if check.status not in NO_FAULT}
 
 
 def _is_wrong(check: CheckResult) -> bool:
     """Lost points for slowness, noise or a warning are no mistake."""
-    return check.status not in (*_FINE, Status.PARTIAL)
+    return check.status not in (*NO_FAULT, Status.PARTIAL)
 
 
 def _order(entry: tuple[float, Known]) -> tuple[float, str]:

@@ -10,7 +10,7 @@ from rich.console import Console
 
 from ..checks.program import Workshop
 from ..checks.reference import References
-from ..checks.result import CheckResult, Status
+from ..checks.result import NO_FAULT, CheckResult, Status
 from ..course import Assignment, Course, ImageCheck, UnitCheck, load_course
 from ..grading.module import ModuleGrader
 from ..grading.result import ModuleResult
@@ -20,9 +20,6 @@ from ..kit import load_kit
 from ..sandbox import Box
 from ..submissions import SubmittedFile
 from .exhibits import Exhibit
-
-_FINE = (Status.PASSED, Status.UNCONFIRMED, Status.NOT_RUN)
-"""An unconfirmed check has passed by its own word: it caught nothing."""
 
 
 @dataclass(frozen=True)
@@ -77,15 +74,19 @@ def visit(grader: ModuleGrader, assignment: Assignment, exhibit: Exhibit) -> Vis
     names = {check.name for check in assignment.checks}
     announced = exhibit.label.expect if exhibit.label else ()
     public = {check.name for check in assignment.checks if isinstance(check, UnitCheck)}
-    failed = frozenset(_failing(exhibit, result.checks))
+    failed = frozenset(faults(exhibit, result.checks))
     return Visit(exhibit, result, frozenset(announced) & names, failed, failed & public)
 
 
-def _failing(exhibit: Exhibit, checks: Iterable[CheckResult]) -> Iterator[str]:
+def faults(exhibit: Exhibit, checks: Iterable[CheckResult]) -> Iterator[str]:
+    """The names of the checks that found something wrong.
+
+    A picture that is only noisier, and right code that is only slow, lose points but are not wrong.
+    """
     for check in checks:
-        # What is right may be slow: it loses the points of the cost, not its place here.
-        slow = exhibit.is_right and check.kind == "cost" and check.status is Status.PARTIAL
-        if check.status not in _FINE and not slow:
+        tolerant = check.kind == "image" or (exhibit.is_right and check.kind == "cost")
+        tolerated = tolerant and check.status is Status.PARTIAL
+        if check.status not in NO_FAULT and not tolerated:
             yield check.name
 
 

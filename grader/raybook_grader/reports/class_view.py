@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from statistics import mean, median
 
-from ..checks.result import Status
+from ..checks.result import NO_FAULT
 from ..database import Module, Student
 from ..grading.result import ModuleResult
 from ..grading.totals import Totals, totals
@@ -16,8 +16,6 @@ from .names import page_name
 
 _BARS = 10
 _COMMONEST = 15
-_FINE = (Status.PASSED, Status.NOT_RUN, Status.UNCONFIRMED, Status.INTERNAL_ERROR)
-"""Statuses that are no failure of their own."""
 
 
 @dataclass(frozen=True)
@@ -125,7 +123,7 @@ def _failures(modules: Sequence[Module], rows: Sequence[Row]) -> tuple[CommonFai
     checks: dict[tuple[Module, str], dict[str, None]] = defaultdict(dict)
     for row, module, result in _results(modules, rows):
         for check in result.checks:
-            if check.status not in _FINE:
+            if check.status not in NO_FAULT:
                 kind = module, check.fingerprint or check.status.value
                 found[kind][row.student] = row
                 checks[kind][check.name] = None
