@@ -44,7 +44,7 @@ pip_install() {
 setup_python() {
     local python size='250 MB, half a minute'
     [ -z "${RAYBOOK_VENV:-}" ] || die "RAYBOOK_VENV=$RAYBOOK_VENV has no bin/python"
-    ! has_grader || size='500 MB, about a minute'
+    ! has_grader || size='700 MB, about a minute'
     if ! venv_ready; then
         python=$(find_python)
         say "Python packages into build/venv ($size)"
