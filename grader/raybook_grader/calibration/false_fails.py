@@ -38,7 +38,7 @@ from ..sandbox import Box
 from ..submissions import SubmittedFile
 
 POOL = 400
-"""Pictures of right modules for each check, the alternatives' and the reference's."""
+"""Pictures of right modules for each check at least, the alternatives' and the reference's."""
 DRAWN = 130
 """Gradings for each check whose seeds are drawn from the pool."""
 _POOL_SEED = 5_000_000
@@ -140,7 +140,7 @@ def _count(workshop: Workshop, references: References, trial: Trial) -> Count:
     size = 2 * trial.check.seeds
     disjoint = drawn = disjoint_failed = drawn_failed = 0
     rng = np.random.default_rng(1)
-    shares = _shares(len(trial.right), size)
+    shares = shares_of(len(trial.right), size)
     first = _POOL_SEED
     for exhibit, share in zip(trial.right, shares, strict=True):
         seeds = range(first, first + share)
@@ -148,7 +148,7 @@ def _count(workshop: Workshop, references: References, trial: Trial) -> Count:
         pool = dict(zip(seeds, _render(workshop, trial, exhibit, picture, seeds), strict=True))
         # The reference is no twin of itself: paired with it, nothing could ever fail.
         twins = None if exhibit is trial.right[0] else _reference(workshop, trial, picture, seeds)
-        for at in _disjoint(seeds, size):
+        for at in disjoint_gradings(seeds, size):
             disjoint += 1
             disjoint_failed += _fails(references, trial, picture, pool, twins, at)
         for _ in range(math.ceil(DRAWN * share / POOL)):
@@ -158,16 +158,20 @@ def _count(workshop: Workshop, references: References, trial: Trial) -> Count:
     return Count(disjoint, disjoint_failed, drawn, drawn_failed, first - _POOL_SEED)
 
 
-def _shares(count: int, size: int) -> list[int]:
-    """How many seeds each right module gets, in whole gradings."""
+def shares_of(count: int, size: int) -> list[int]:
+    """How many seeds each of ``count`` right modules gets, in whole gradings of ``size`` seeds;
+    the reference, the first, gets half. Together at least `POOL`."""
     if count == 1:
-        return [POOL // size * size]
-    half = POOL // 2 // size * size
-    each = max((POOL - half) // (count - 1) // size, 1) * size
-    return [half, *[each] * (count - 1)]
+        return [_whole(POOL, size)]
+    half = _whole(POOL / 2, size)
+    return [half, *[_whole((POOL - half) / (count - 1), size)] * (count - 1)]
 
 
-def _disjoint(seeds: range, size: int) -> Iterator[list[int]]:
+def _whole(seeds: float, size: int) -> int:
+    return math.ceil(seeds / size) * size
+
+
+def disjoint_gradings(seeds: range, size: int) -> Iterator[list[int]]:
     for start in range(0, len(seeds) - size + 1, size):
         yield list(seeds[start : start + size])
 
