@@ -92,8 +92,9 @@ def _calibrate(arguments: argparse.Namespace) -> int:
         jobs=max(1, arguments.jobs),
     )
     tables = calibrate(order, chosen, console)
-    folder = _CHECKOUT / "build" / "calibration"
     figures = json.dumps(to_json(tables), indent=1) + "\n"
+    folder = _CHECKOUT / "build" / "calibration" / order.compiler.name
+    folder.mkdir(parents=True, exist_ok=True)
     write_text(folder / "calibration.json", figures)
     write_text(folder / "table.md", to_markdown(tables))
     if arguments.json:

@@ -35,6 +35,11 @@ class Compiler:
     cc: str | None = None
     optimisation: str | None = None
 
+    @property
+    def name(self) -> str:
+        """Of the folder for its table: "", "clang", "-O0", "clang-O0"; "" is the kit's."""
+        return Path(self.cc or "").name + (self.optimisation or "")
+
     def apply(self, kit: Kit) -> Kit:
         """The kit for modules; the reference's objects stay what they are."""
         level = self.optimisation

@@ -203,3 +203,5 @@ def test_another_compiler_is_for_the_students_modules_only() -> None:
     assert other.cc == "clang" and other.objects == kit.objects
     assert [flag for flag in other.cflags if flag.startswith("-O")] == ["-O0"]
     assert Compiler().apply(kit) == kit
+    names = [Compiler(cc, level).name for cc in (None, "clang") for level in (None, "-O0")]
+    assert names == ["", "-O0", "clang", "clang-O0"]
