@@ -1,9 +1,12 @@
-"""Writing a file so that it is complete or absent."""
+"""Writing a file so that it is complete or absent; doing a thing one process at a time."""
 
 from __future__ import annotations
 
+import fcntl
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 
@@ -23,3 +26,12 @@ def write_bytes(file: Path, content: bytes) -> None:
 def write_text(file: Path, text: str) -> None:
     """`write_bytes` in UTF-8; what is no valid Unicode becomes a question mark."""
     write_bytes(file, text.encode("utf-8", "replace"))
+
+
+@contextmanager
+def locked(file: Path) -> Iterator[None]:
+    """Waits until no other process holds the lock; it goes with the process that holds it."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    with file.open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield

@@ -10,16 +10,14 @@ makes them again, and a test compares them with the renderer as it is.
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import math
 import os
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 
-from ..files import write_bytes
+from ..files import locked, write_bytes
 from ..judge.exr import decode_exr
 from ..judge.pixels import Image
 from ..judge.reference import MIN_CHUNKS, VERSION, ReferenceStatistics, reduce_reference
@@ -67,7 +65,7 @@ class References:
     def rendered(self, picture: Picture) -> ReferenceStatistics:
         """The statistics of this very renderer's pictures."""
         file = self._file(picture)
-        with _locked(file.parent):
+        with locked(file.with_name(".lock")):
             if not file.is_file():
                 spp = max(picture.spp, math.ceil(REFERENCE_SPP / MIN_CHUNKS))
                 chunks = self._chunks(Picture(picture.scene, picture.resolution, spp))
@@ -112,11 +110,3 @@ class References:
         folder = root / "build" / "reference" / f"{Path(picture.scene).stem}-{key}"
         folder.mkdir(parents=True, exist_ok=True)
         return folder / "statistics.npz"
-
-
-@contextmanager
-def _locked(folder: Path) -> Iterator[None]:
-    """One process at a time; the lock goes with the process that holds it."""
-    with (folder / ".lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        yield

@@ -139,9 +139,9 @@ def _signed_map(reference: Image, test: Image) -> ErrorMap:
     means = tile_means(expected, _BIAS_TILE)
     floor = 0.05 * float(expected.mean()) + 1e-30
     relative = (tile_means(seen, _BIAS_TILE) - means) / (means + floor)
-    values = (100 * spread(relative, shape, _BIAS_TILE)).astype(np.float32)
+    values = np.clip(100 * spread(relative, shape, _BIAS_TILE), -6e4, 6e4).astype(np.float32)
     end = 100 * _BIAS_SHOWN
-    return ErrorMap("Darker or brighter", np.clip(values, -6e4, 6e4), -end, end, "%", BLUE_RED)
+    return ErrorMap("Darker or brighter", values, -end, end, "%", BLUE_RED)
 
 
 def _worst_pixel(maps: Sequence[ErrorMap]) -> list[int]:

@@ -11,6 +11,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ..checks.words import clean
+from ..files import locked
 
 # A make around us must not lend its options and its jobs to the makes that we run; what was said
 # on its command line (VARIANT, TODO, CC, OPT) is in the environment as well.
@@ -64,14 +65,15 @@ class Maker:
     def _make(self, *words: str) -> str:
         environment = {k: v for k, v in os.environ.items() if k not in _OF_MAKE}
         command = ["make", f"-j{os.cpu_count() or 1}", "CHECK=yes", *words]
-        done = subprocess.run(
-            command,
-            cwd=self.root,
-            env=environment,
-            capture_output=True,
-            text=True,
-            errors="replace",
-        )
+        with locked(self.root / "build" / ".make.lock"):  # `make watch` may run beside `make check`
+            done = subprocess.run(
+                command,
+                cwd=self.root,
+                env=environment,
+                capture_output=True,
+                text=True,
+                errors="replace",
+            )
         if done.returncode != 0:
             raise DoesNotBuild(clean(done.stderr, _LINES))
         return done.stdout

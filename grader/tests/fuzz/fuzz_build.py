@@ -7,6 +7,8 @@ import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from raybook_grader.files import locked
+
 HERE = Path(__file__).resolve().parent
 CHECKOUT = HERE.parents[2]
 BUILD = CHECKOUT / "build" / "fuzz"
@@ -94,7 +96,8 @@ def _make_says(target: str) -> list[str]:
     """The words of the last line; whatever make this may run under is kept out of it."""
     alone = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "MFLAGS"))}
     command = ["make", "-s", "OPT=asan", "CC=gcc", target]
-    done = subprocess.run(command, cwd=CHECKOUT, env=alone, capture_output=True, text=True)
+    with locked(CHECKOUT / "build" / ".make.lock"):
+        done = subprocess.run(command, cwd=CHECKOUT, env=alone, capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
     return done.stdout.splitlines()[-1].split()

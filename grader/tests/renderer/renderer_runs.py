@@ -15,6 +15,8 @@ import numpy as np
 import numpy.typing as npt
 import OpenEXR
 
+from raybook_grader.files import locked
+
 ROOT = Path(__file__).resolve().parents[3]
 SOURCE = ROOT / "src"
 CORNELL = ROOT / "scenes" / "cornell-box.json"
@@ -32,7 +34,8 @@ def make(*arguments: str) -> str:
     """Runs make at the top of the checkout; its standard output. A failure fails the test."""
     environment = {k: v for k, v in os.environ.items() if k not in _OF_MAKE}
     command = ["make", "-j2", *arguments]
-    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
+    with locked(ROOT / "build" / ".make.lock"):
+        done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, f"{' '.join(command)}\n{done.stdout}{done.stderr}"
     return done.stdout
 
