@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from ..checks.scene import scene_fingerprint
 from ..checks.stub import stub_text
@@ -14,9 +14,19 @@ from ..kit import Kit
 from ..submissions import SubmittedFile
 
 _PACKAGE = Path(__file__).resolve().parents[1]
-_NO_SAY = ("reports", "literate", "calibration")
-"""Parts of the grader that change no result."""
+_HAS_A_SAY = (
+    "cases.py", "checks", "course", "diagnosis", "errors.py", "files.py", "grading/module.py",
+    "grading/result.py", "judge", "kit.py", "museum", "probes.py", "sandbox", "scoring.py",
+    "submissions",
+)  # fmt: skip
+"""Parts of the grader that a result depends on; of `literate` the stubs, which are hashed."""
 _MUSEUM = ("mistakes", "alternatives", "twins")
+
+
+def has_a_say(module: PurePath) -> bool:
+    """Whether a part of this package can change a result."""
+    return any(module.is_relative_to(part) for part in _HAS_A_SAY)
+
 
 class Keys:
     """The keys of one run's work."""
@@ -74,8 +84,7 @@ class Keys:
         modules = [
             path
             for path in _files(_PACKAGE)
-            if path.suffix in (".py", ".c", ".h")
-            and path.relative_to(_PACKAGE).parts[0] not in _NO_SAY
+            if path.suffix in (".py", ".c", ".h") and has_a_say(path.relative_to(_PACKAGE))
         ]
         return _hash(_content(path, _PACKAGE) for path in modules)
 
