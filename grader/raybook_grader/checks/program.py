@@ -20,6 +20,8 @@ from .words import clean
 
 _INCLUDE = "/kit/include"
 _OBJECTS = "/kit/objects"
+_DRIVER = Path(__file__).resolve().parent / "driver"
+"""What all drivers share: probe.h."""
 _MAIN = "objects/main.o"
 # gcc and ld take well under a second; a macro bomb takes for ever.
 _BUILD_LIMITS = Limits(wall_seconds=60, cpu_seconds=20, memory_bytes=1 << 30)
@@ -136,8 +138,9 @@ class Workshop:
         """The object of a driver, a test or Unity, which no student wrote."""
         compiled = self.box.run(
             [self.kit.cc, *self.kit.cflags, *flags, "-w", "-Wno-error",
-             "-I", _INCLUDE, "-I", "/unity", "-c", source.name, "-o", "trusted.o"],
-            binds={_INCLUDE: self.kit.include, "/unity": self._unity},
+             "-I", _INCLUDE, "-I", "/unity", "-I", "/driver",
+             "-c", source.name, "-o", "trusted.o"],
+            binds={_INCLUDE: self.kit.include, "/unity": self._unity, "/driver": _DRIVER},
             inputs={source.name: source.read_bytes()},
             collect=["trusted.o"],
             limits=_BUILD_LIMITS,

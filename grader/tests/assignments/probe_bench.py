@@ -18,6 +18,7 @@ from raybook_grader.kit import load_kit
 from raybook_grader.probes import Cases, Failure
 
 ROOT = Path(__file__).resolve().parents[3]
+DRIVER = ROOT / "grader" / "raybook_grader" / "checks" / "driver"
 UNITY = Path(os.environ.get("UNITY_ROOT") or ROOT / "build" / "unity")
 WARNINGS = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 CODE = ["-ffp-contract=off", "-fno-math-errno", "-fopenmp"]
@@ -69,7 +70,8 @@ class Bench:
         if key not in self.kept:
             out = self.folder / f"{len(self.kept)}.o"
             beside = (ROOT / self.owned(source)).parent
-            include = [f"-I{ROOT / 'src'}", "-iquote", str(beside), "-isystem", str(UNITY)]
+            include = [f"-I{ROOT / 'src'}", f"-I{DRIVER}", "-iquote", str(beside)]
+            include += ["-isystem", str(UNITY)]
             run(cc, *WARNINGS, *CODE, *flags, *include, "-c", str(source), "-o", str(out))
             self.kept[key] = out
         return self.kept[key]
