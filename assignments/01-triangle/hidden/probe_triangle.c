@@ -18,12 +18,7 @@
  *
  * A function that returned false has zeros for its vectors or t, b1, b2.
  * Flags: 1 = returned false, yet wrote to its results; 2 = changed the ray. */
-#include <stdbool.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "probe.h"
 #include "shapes/triangle.h"
 
 enum { WROTE_ON_FALSE = 1, CHANGED_RAY = 2 };
@@ -35,36 +30,23 @@ static const float UNTOUCHED = -12345.6787f;
 
 typedef void run_case(const float *in, uint32_t *out);
 
-static void fail(const char *file, const char *what)
+static vec3 vec3_of(const float *in)
 {
-    fprintf(stderr, "probe_triangle: %s: %s\n", file, what);
-    exit(2);
+    return vec3_make(in[0], in[1], in[2]);
 }
 
-static uint32_t word_of(float value)
-{
-    uint32_t word;
-    memcpy(&word, &value, sizeof word);
-    return word;
-}
-
-static void put_vec3(uint32_t *out, vec3 v)
+static void write_vec3(uint32_t *out, vec3 v)
 {
     out[0] = word_of(v.x);
     out[1] = word_of(v.y);
     out[2] = word_of(v.z);
 }
 
-static vec3 take_vec3(const float *in)
-{
-    return vec3_make(in[0], in[1], in[2]);
-}
-
 static void run_intersect(const float *in, uint32_t *out)
 {
-    const vec3 p[3] = {take_vec3(in), take_vec3(in + 3), take_vec3(in + 6)};
+    const vec3 p[3] = {vec3_of(in), vec3_of(in + 3), vec3_of(in + 6)};
     const ray given =
-        ray_make(take_vec3(in + 9), take_vec3(in + 12), in[15], in[16]);
+        ray_make(vec3_of(in + 9), vec3_of(in + 12), in[15], in[16]);
     const struct triangle_hit untouched = {UNTOUCHED, UNTOUCHED, UNTOUCHED};
     ray used = given;
     struct triangle_hit hit = untouched;
@@ -83,14 +65,14 @@ static void run_intersect(const float *in, uint32_t *out)
 
 static void run_differentials(const float *in, uint32_t *out)
 {
-    const vec3 p[3] = {take_vec3(in), take_vec3(in + 3), take_vec3(in + 6)};
+    const vec3 p[3] = {vec3_of(in), vec3_of(in + 3), vec3_of(in + 6)};
     const vec2 uv[3] = {{in[9], in[10]}, {in[11], in[12]}, {in[13], in[14]}};
     const vec3 untouched = {UNTOUCHED, UNTOUCHED, UNTOUCHED};
     vec3 dp_du = untouched, dp_dv = untouched;
     if (triangle_uv_differentials(p, uv, &dp_du, &dp_dv)) {
         out[0] = 1;
-        put_vec3(out + 1, dp_du);
-        put_vec3(out + 4, dp_dv);
+        write_vec3(out + 1, dp_du);
+        write_vec3(out + 4, dp_dv);
     } else if (memcmp(&dp_du, &untouched, sizeof dp_du) != 0 ||
                memcmp(&dp_dv, &untouched, sizeof dp_dv) != 0) {
         out[7] |= WROTE_ON_FALSE;
@@ -103,68 +85,21 @@ static void run_both(const float *in, uint32_t *out)
     run_intersect(in, out);
 }
 
-/* The next record of `words` words; false at the end of the file. */
-static bool read_record(FILE *file, const char *name, float *record,
-                        size_t words)
-{
-    unsigned char bytes[4 * INTERSECT_IN];
-    size_t got = fread(bytes, 1, 4 * words, file);
-    if (ferror(file))
-        fail(name, "cannot be read");
-    if (got == 0)
-        return false;
-    if (got != 4 * words)
-        fail(name, "ends inside a record; expected whole records of cases");
-    for (size_t i = 0; i < words; i++) {
-        const unsigned char *b = bytes + 4 * i;
-        uint32_t word = (uint32_t)b[0] | (uint32_t)b[1] << 8 |
-                        (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
-        memcpy(&record[i], &word, sizeof word);
-    }
-    return true;
-}
-
-static void write_record(FILE *file, const char *name, const uint32_t *record,
-                         size_t words)
-{
-    unsigned char bytes[4 * DIFFERENTIALS_OUT];
-    for (size_t i = 0; i < 4 * words; i++)
-        bytes[i] = (unsigned char)(record[i / 4] >> (8 * (i % 4)));
-    if (fwrite(bytes, 1, 4 * words, file) != 4 * words)
-        fail(name, "cannot be written");
-}
-
-static FILE *open_or_fail(const char *name, const char *mode)
-{
-    FILE *file = fopen(name, mode);
-    if (!file)
-        fail(name, "cannot be opened");
-    return file;
-}
-
 int main(int argc, char **argv)
 {
-    if (argc != 4) {
-        fprintf(stderr, "usage: probe_triangle INPUT OUTPUT GROUP\n");
-        return 2;
-    }
-    bool differentials = strcmp(argv[3], "differentials") == 0;
-    run_case *run = differentials                     ? run_differentials
-                    : strcmp(argv[3], "hostile") == 0 ? run_both
-                                                      : run_intersect;
+    struct probe p = probe_open("probe_triangle", argc, argv);
+    bool differentials = probe_is(&p, "differentials");
+    run_case *run = differentials             ? run_differentials
+                    : probe_is(&p, "hostile") ? run_both
+                                              : run_intersect;
     size_t words_in = differentials ? DIFFERENTIALS_IN : INTERSECT_IN;
     size_t words_out = differentials ? DIFFERENTIALS_OUT : INTERSECT_OUT;
-
-    FILE *input = open_or_fail(argv[1], "rb");
-    FILE *output = open_or_fail(argv[2], "wb");
-    float in[INTERSECT_IN];
-    while (read_record(input, argv[1], in, words_in)) {
+    while (probe_more(&p)) {
+        float in[INTERSECT_IN];
         uint32_t out[DIFFERENTIALS_OUT] = {0};
+        take_floats(&p, in, words_in);
         run(in, out);
-        write_record(output, argv[2], out, words_out);
+        put_words(&p, out, words_out);
     }
-    if (fclose(output) != 0)
-        fail(argv[2], "cannot be written");
-    fclose(input);
-    return 0;
+    return probe_close(&p);
 }

@@ -23,107 +23,11 @@
  * no arithmetic of the primitives' is in question. */
 #include <math.h>
 #include <setjmp.h>
-#include <stdbool.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "accel/bvh.h"
 #include "base/counters.h"
-
-/* Files ------------------------------------------------------------------- */
-
-static void fail(const char *file, const char *what)
-{
-    fprintf(stderr, "probe_bvh: %s: %s\n", file, what);
-    exit(2);
-}
-
-static FILE *open_or_fail(const char *name, const char *mode)
-{
-    FILE *file = fopen(name, mode);
-    if (!file)
-        fail(name, "cannot be opened");
-    return file;
-}
-
-static void *room_for(size_t count, size_t size)
-{
-    void *room = calloc(count > 0 ? count : 1, size);
-    if (!room)
-        fail("memory", "there is not enough");
-    return room;
-}
-
-struct input {
-    FILE *file;
-    const char *name;
-};
-
-/* The next word; false at the end of the file. */
-static bool read_word(const struct input *in, uint32_t *word)
-{
-    unsigned char b[4];
-    size_t got = fread(b, 1, sizeof b, in->file);
-    if (got == 0 && !ferror(in->file))
-        return false;
-    if (got != sizeof b)
-        fail(in->name, "ends inside a word; expected whole cases");
-    *word = (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 |
-            (uint32_t)b[3] << 24;
-    return true;
-}
-
-static uint32_t take_word(const struct input *in)
-{
-    uint32_t word = 0;
-    if (!read_word(in, &word))
-        fail(in->name, "ends inside a case; expected whole cases");
-    return word;
-}
-
-static float take_float(const struct input *in)
-{
-    uint32_t word = take_word(in);
-    float value;
-    memcpy(&value, &word, sizeof value);
-    return value;
-}
-
-static vec3 take_vec3(const struct input *in)
-{
-    float x = take_float(in), y = take_float(in), z = take_float(in);
-    return vec3_make(x, y, z);
-}
-
-static aabb take_box(const struct input *in)
-{
-    aabb box;
-    box.lower = take_vec3(in);
-    box.upper = take_vec3(in);
-    return box;
-}
-
-static void put_word(FILE *out, uint32_t word)
-{
-    for (int i = 0; i < 4; i++)
-        putc((int)(word >> (8 * i) & 0xff), out);
-}
-
-static void put_float(FILE *out, float value)
-{
-    uint32_t word;
-    memcpy(&word, &value, sizeof word);
-    put_word(out, word);
-}
-
-static void put_vec3(FILE *out, vec3 v)
-{
-    put_float(out, v.x);
-    put_float(out, v.y);
-    put_float(out, v.z);
-}
+#include "base/memory.h"
+#include "probe.h"
 
 /* Building ---------------------------------------------------------------- */
 
@@ -143,7 +47,7 @@ enum { BUILT_TWICE = 6000 };
 /* An array between two fences, all of it holding `junk`. */
 static unsigned char *fenced(size_t size, int junk)
 {
-    unsigned char *all = room_for(size + 2 * FENCE, 1);
+    unsigned char *all = mem_alloc(size + 2 * FENCE, 1);
     memset(all, junk, size + 2 * FENCE);
     return all;
 }
@@ -195,35 +99,36 @@ static bool same(const struct build *a, const struct build *b)
 
 static void free_build(struct build *b)
 {
-    free(b->nodes);
-    free(b->order);
+    mem_free(b->nodes);
+    mem_free(b->order);
 }
 
-static void put_build(FILE *out, const struct build *b)
+static void put_build(struct probe *p, const struct build *b)
 {
-    put_word(out, b->returned);
-    put_word(out, b->flags);
+    put_word(p, b->returned);
+    put_word(p, b->flags);
     if (!fits(b))
         return;
     const struct bvh_node *nodes = (struct bvh_node *)(b->nodes + FENCE);
     const uint32_t *order = (uint32_t *)(b->order + FENCE);
     for (uint32_t i = 0; i < b->returned; i++) {
-        put_vec3(out, nodes[i].box.lower);
-        put_vec3(out, nodes[i].box.upper);
-        put_word(out, nodes[i].first);
-        put_word(out, nodes[i].count);
+        put_vec3(p, nodes[i].box.lower);
+        put_vec3(p, nodes[i].box.upper);
+        put_word(p, nodes[i].first);
+        put_word(p, nodes[i].count);
     }
     for (uint32_t i = 0; i < b->n; i++)
-        put_word(out, order[i]);
+        put_word(p, order[i]);
 }
 
-static void run_set(const struct input *in, uint32_t n, FILE *out)
+static void run_set(struct probe *p)
 {
+    uint32_t n = take_word(p);
     size_t size = n * sizeof(aabb);
-    aabb *boxes = room_for(n, sizeof *boxes);
-    aabb *before = room_for(n, sizeof *before);
+    aabb *boxes = mem_alloc(n, sizeof *boxes);
+    aabb *before = mem_alloc(n, sizeof *before);
     for (uint32_t i = 0; i < n; i++)
-        boxes[i] = take_box(in);
+        boxes[i] = take_box(p);
     memcpy(before, boxes, size);
     struct build first = run_build(boxes, n, 0x5a);
     if (n <= BUILT_TWICE) {
@@ -234,10 +139,10 @@ static void run_set(const struct input *in, uint32_t n, FILE *out)
     }
     if (memcmp(before, boxes, size) != 0)
         first.flags |= CHANGED_BOXES;
-    put_build(out, &first);
+    put_build(p, &first);
     free_build(&first);
-    free(boxes);
-    free(before);
+    mem_free(boxes);
+    mem_free(before);
 }
 
 /* Walking ----------------------------------------------------------------- */
@@ -376,85 +281,74 @@ static void answer(struct query *q)
     q->boxes = (uint32_t)(counters_mine.boxes_tested - boxes_before);
 }
 
-static struct query take_query(const struct input *in, const struct bvh *tree)
+static struct query take_query(struct probe *p, const struct bvh *tree)
 {
-    struct query q = {.tree = tree, .kind = take_word(in)};
-    vec3 origin = take_vec3(in), direction = take_vec3(in);
-    float t_min = take_float(in), t_max = take_float(in);
-    q.r = ray_make(origin, direction, t_min, t_max);
-    q.hits = take_word(in);
-    q.hit = room_for(q.hits, sizeof *q.hit);
+    struct query q = {.tree = tree, .kind = take_word(p)};
+    q.r = take_ray(p);
+    q.hits = take_word(p);
+    q.hit = mem_alloc(q.hits, sizeof *q.hit);
     for (uint32_t i = 0; i < q.hits; i++) {
-        q.hit[i].i = take_word(in);
-        q.hit[i].t = take_float(in);
+        q.hit[i].i = take_word(p);
+        q.hit[i].t = take_float(p);
     }
     return q;
 }
 
-static void put_query(FILE *out, const struct query *q)
+static void put_query(struct probe *p, const struct query *q)
 {
-    put_word(out, q->returned);
-    put_word(out, q->answer.i);
-    put_float(out, q->answer.t);
-    put_float(out, q->t_max);
-    put_word(out, q->primitives);
-    put_word(out, q->boxes);
-    put_word(out, q->flags);
+    put_word(p, q->returned);
+    put_word(p, q->answer.i);
+    put_float(p, q->answer.t);
+    put_float(p, q->t_max);
+    put_word(p, q->primitives);
+    put_word(p, q->boxes);
+    put_word(p, q->flags);
 }
 
-static void run_rays(const struct input *in, const struct bvh *tree,
-                     uint32_t rays, const struct bvh_node *before, FILE *out)
+static void run_rays(struct probe *p, const struct bvh *tree, uint32_t rays,
+                     const struct bvh_node *before)
 {
     struct query last = {.hit = NULL};
     for (uint32_t i = 0; i < rays; i++) {
-        struct query q = take_query(in, tree);
+        struct query q = take_query(p, tree);
         q.inner = q.kind & NESTED && i > 0 ? &last : NULL;
         answer(&q);
         if (i + 1 == rays &&
             memcmp(before, tree->nodes, tree->node_count * sizeof *before) != 0)
             q.flags |= CHANGED_TREE;
-        put_query(out, &q);
-        free(last.hit);
+        put_query(p, &q);
+        mem_free(last.hit);
         last = q;
     }
-    free(last.hit);
+    mem_free(last.hit);
 }
 
-static void run_tree(const struct input *in, uint32_t node_count, FILE *out)
+static void run_tree(struct probe *p)
 {
-    uint32_t rays = take_word(in);
-    struct bvh_node *nodes = room_for(node_count, sizeof *nodes);
-    struct bvh_node *before = room_for(node_count, sizeof *before);
+    uint32_t node_count = take_word(p), rays = take_word(p);
+    struct bvh_node *nodes = mem_alloc(node_count, sizeof *nodes);
+    struct bvh_node *before = mem_alloc(node_count, sizeof *before);
     for (uint32_t i = 0; i < node_count; i++) {
-        nodes[i].box = take_box(in);
-        nodes[i].first = take_word(in);
-        nodes[i].count = take_word(in);
+        nodes[i].box = take_box(p);
+        nodes[i].first = take_word(p);
+        nodes[i].count = take_word(p);
     }
     memcpy(before, nodes, node_count * sizeof *nodes);
     struct bvh tree = {nodes, node_count};
-    run_rays(in, &tree, rays, before, out);
-    free(nodes);
-    free(before);
+    run_rays(p, &tree, rays, before);
+    mem_free(nodes);
+    mem_free(before);
 }
 
 int main(int argc, char **argv)
 {
-    if (argc != 4) {
-        fprintf(stderr, "usage: probe_bvh INPUT OUTPUT GROUP\n");
-        return 2;
-    }
-    struct input in = {open_or_fail(argv[1], "rb"), argv[1]};
-    FILE *out = open_or_fail(argv[2], "wb");
-    bool walks = strncmp(argv[3], "walk", 4) == 0;
-    uint32_t count;
-    while (read_word(&in, &count)) {
+    struct probe p = probe_open("probe_bvh", argc, argv);
+    bool walks = strncmp(p.group, "walk", 4) == 0;
+    while (probe_more(&p)) {
         if (walks)
-            run_tree(&in, count, out);
+            run_tree(&p);
         else
-            run_set(&in, count, out);
+            run_set(&p);
     }
-    if (ferror(out) || fclose(out) != 0)
-        fail(argv[2], "cannot be written");
-    fclose(in.file);
-    return 0;
+    return probe_close(&p);
 }

@@ -25,15 +25,10 @@
  * the lights have changed; 64 = asking again gives something else; 128 =
  * all_lights does not ask each light once; 256 = one_light does not ask one
  * light once. */
-#include <stdbool.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "base/constants.h"
 #include "base/memory.h"
 #include "integrators/several_lights.h"
+#include "probe.h"
 
 enum {
     NO_LIGHT = 1,
@@ -46,7 +41,7 @@ enum {
     NOT_EACH_ONCE = 128,
     NOT_ONE_ONCE = 256
 };
-enum { HEAD = 4, LIGHT_WORDS = 10, LIGHTS_MAX = 4096 };
+enum { LIGHTS_MAX = 4096 };
 
 struct job {
     uint32_t count, steps;
@@ -55,98 +50,34 @@ struct job {
     struct light *lights;
 };
 
-static void fail(const char *file, const char *what)
+static struct light take_light(struct probe *p)
 {
-    fprintf(stderr, "probe_lights: %s: %s\n", file, what);
-    exit(2);
-}
-
-static FILE *open_or_fail(const char *name, const char *mode)
-{
-    FILE *file = fopen(name, mode);
-    if (!file)
-        fail(name, "cannot be opened");
-    return file;
-}
-
-/* --- Words ---------------------------------------------------------------- */
-
-static bool read_words(FILE *file, const char *name, uint32_t *words,
-                       size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        unsigned char b[4];
-        size_t got = fread(b, 1, 4, file);
-        if (got == 0 && i == 0 && !ferror(file))
-            return false;
-        if (got != 4)
-            fail(name, "ends inside a record; expected whole records of cases");
-        words[i] = (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 |
-                   (uint32_t)b[3] << 24;
-    }
-    return true;
-}
-
-static void put(FILE *file, uint32_t word)
-{
-    for (int shift = 0; shift < 32; shift += 8)
-        fputc((int)(word >> shift & 255), file);
-}
-
-static float as_float(uint32_t word)
-{
-    float value;
-    memcpy(&value, &word, sizeof value);
-    return value;
-}
-
-static void put_float(FILE *file, float value)
-{
-    uint32_t word;
-    memcpy(&word, &value, sizeof word);
-    put(file, word);
-}
-
-static void put_rgb(FILE *file, rgb c)
-{
-    put_float(file, c.r);
-    put_float(file, c.g);
-    put_float(file, c.b);
-}
-
-static struct light light_of(const uint32_t *w)
-{
-    rgb color = rgb_make(as_float(w[4]), as_float(w[5]), as_float(w[6]));
     struct light light;
     memset(&light, 0, sizeof light);
-    light.kind = (enum light_kind)w[0];
-    light.position = vec3_make(as_float(w[1]), as_float(w[2]), as_float(w[3]));
+    light.kind = (enum light_kind)take_word(p);
+    light.position = take_vec3(p);
     light.direction = vec3_make(0.0f, -1.0f, 0.0f);
+    rgb color = take_rgb(p);
     light.flux = light.irradiance = light.intensity = light.radiance = color;
-    light.beam_angle = as_float(w[7]);
-    light.cutoff_angle = as_float(w[8]);
-    light.area = as_float(w[9]);
+    light.beam_angle = take_float(p);
+    light.cutoff_angle = take_float(p);
+    light.area = take_float(p);
     return light;
 }
 
-static bool read_job(FILE *file, const char *name, struct job *job)
+static struct job take_job(struct probe *p)
 {
-    uint32_t head[HEAD], words[LIGHT_WORDS];
-    if (!read_words(file, name, head, HEAD))
-        return false;
-    if (head[0] > LIGHTS_MAX)
-        fail(name, "more lights than a record may have");
-    job->count = head[0];
-    job->by_power = head[1] != 0;
-    job->radius = as_float(head[2]);
-    job->steps = head[3];
-    job->lights = mem_alloc(job->count, sizeof *job->lights);
-    for (uint32_t i = 0; i < job->count; i++) {
-        if (!read_words(file, name, words, LIGHT_WORDS))
-            fail(name, "ends inside a record; expected whole records of cases");
-        job->lights[i] = light_of(words);
-    }
-    return true;
+    struct job job;
+    job.count = take_word(p);
+    if (job.count > LIGHTS_MAX)
+        probe_fail(p, p->input_name, "more lights than a record may have");
+    job.by_power = take_word(p) != 0;
+    job.radius = take_float(p);
+    job.steps = take_word(p);
+    job.lights = mem_alloc(job.count, sizeof *job.lights);
+    for (uint32_t i = 0; i < job.count; i++)
+        job.lights[i] = take_light(p);
+    return job;
 }
 
 /* --- The table ------------------------------------------------------------ */
@@ -191,7 +122,7 @@ static void count_pick(const struct job *job, const struct light_table *t,
     picks[light]++;
 }
 
-static void run_table(const struct job *job, FILE *out)
+static void run_table(struct probe *p, const struct job *job)
 {
     uint32_t flags = 0;
     uint32_t *picks = mem_alloc(job->count, sizeof *picks);
@@ -204,10 +135,10 @@ static void run_table(const struct job *job, FILE *out)
     for (uint32_t i = 0; i < job->count; i++)
         chance[i] = light_table_probability(&t, i);
     free_table(&t, &flags);
-    put(out, flags);
+    put_word(p, flags);
     for (uint32_t i = 0; i < job->count; i++) {
-        put_float(out, chance[i]);
-        put(out, picks[i]);
+        put_float(p, chance[i]);
+        put_word(p, picks[i]);
     }
     mem_free(picks);
     mem_free(chance);
@@ -225,7 +156,7 @@ struct stage {
     struct vertex vertex;
 };
 
-static void prepare(struct stage *s, const struct job *job)
+static void prepare(struct probe *p, struct stage *s, const struct job *job)
 {
     struct error err = {{0}};
     memset(s, 0, sizeof *s);
@@ -243,7 +174,7 @@ static void prepare(struct stage *s, const struct job *job)
     floor->rect.normal = vec3_make(0.0f, 1.0f, 0.0f);
     floor->rect.area = 100.0f;
     if (!scene_prepare(&s->scene, ACCEL_BVH, &err))
-        fail("scene", err.text);
+        probe_fail(p, "scene", err.text);
     s->scene.lights = job->lights;
     s->scene.light_count = job->count;
     s->sampler = sampler_start(SAMPLER_INDEPENDENT, 1, 1, 0, 1);
@@ -254,7 +185,7 @@ static void prepare(struct stage *s, const struct job *job)
     struct ray_differential none;
     memset(&none, 0, sizeof none);
     if (!tracer_hit(&s->tracer, &down, &none, &s->vertex))
-        fail("scene", "the floor is not seen");
+        probe_fail(p, "scene", "the floor is not seen");
 }
 
 /* The lights are the job's. */
@@ -271,11 +202,11 @@ static bool asks(const struct stage *s, uint32_t before, uint32_t lights)
     return s->sampler.dimension - before == 2 * lights;
 }
 
-static void run_sum(const struct job *job, FILE *out)
+static void run_sum(struct probe *p, const struct job *job)
 {
     uint32_t flags = 0;
     struct stage s;
-    prepare(&s, job);
+    prepare(p, &s, job);
     const struct asking asking = {&s.tracer, &s.vertex, false};
 
     uint32_t before = s.sampler.dimension;
@@ -299,35 +230,27 @@ static void run_sum(const struct job *job, FILE *out)
         mean[1] += (double)one.g / job->steps;
         mean[2] += (double)one.b / job->steps;
     }
-    put(out, flags);
-    put_rgb(out, all);
-    put_rgb(out, half);
-    put_rgb(out, rgb_make((float)mean[0], (float)mean[1], (float)mean[2]));
+    put_word(p, flags);
+    put_rgb(p, all);
+    put_rgb(p, half);
+    put_rgb(p, rgb_make((float)mean[0], (float)mean[1], (float)mean[2]));
     for (uint32_t i = 0; i < job->count; i++)
-        put_float(out, light_table_probability(&t, i));
+        put_float(p, light_table_probability(&t, i));
     light_table_free(&t);
     tidy(&s);
 }
 
 int main(int argc, char **argv)
 {
-    if (argc != 4) {
-        fprintf(stderr, "usage: probe_lights INPUT OUTPUT GROUP\n");
-        return 2;
-    }
-    bool sum = strcmp(argv[3], "sum") == 0;
-    FILE *input = open_or_fail(argv[1], "rb");
-    FILE *output = open_or_fail(argv[2], "wb");
-    struct job job;
-    while (read_job(input, argv[1], &job)) {
+    struct probe p = probe_open("probe_lights", argc, argv);
+    bool sum = probe_is(&p, "sum");
+    while (probe_more(&p)) {
+        struct job job = take_job(&p);
         if (sum)
-            run_sum(&job, output);
+            run_sum(&p, &job);
         else
-            run_table(&job, output);
+            run_table(&p, &job);
         mem_free(job.lights);
     }
-    if (fclose(output) != 0)
-        fail(argv[2], "cannot be written");
-    fclose(input);
-    return 0;
+    return probe_close(&p);
 }

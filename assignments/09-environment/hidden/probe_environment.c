@@ -21,111 +21,38 @@
  *         was returned; f environment_pdf of the direction, and 4 f of four
  *         directions 2e-5 beside it; u flags: 1 = the same numbers gave
  *         something else the second time */
-#include <stdbool.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "lights/environment_map.h"
+#include "probe.h"
 
 enum { OTHER_DIRECTION = 1 };
 
-static void fail(const char *file, const char *what)
-{
-    fprintf(stderr, "probe_environment: %s: %s\n", file, what);
-    exit(2);
-}
-
-struct files {
-    const char *input_name, *output_name;
-    FILE *input, *output;
-};
-
-/* The next word; false at the end of the file. */
-static bool read_word(struct files *f, uint32_t *word)
-{
-    unsigned char b[4];
-    size_t got = fread(b, 1, 4, f->input);
-    if (ferror(f->input))
-        fail(f->input_name, "cannot be read");
-    if (got != 0 && got != 4)
-        fail(f->input_name, "ends inside a word");
-    *word = (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 |
-            (uint32_t)b[3] << 24;
-    return got == 4;
-}
-
-static uint32_t need_word(struct files *f)
-{
-    uint32_t word;
-    if (!read_word(f, &word))
-        fail(f->input_name, "ends inside a block; expected whole blocks");
-    return word;
-}
-
-static float need_float(struct files *f)
-{
-    uint32_t word = need_word(f);
-    float value;
-    memcpy(&value, &word, sizeof value);
-    return value;
-}
-
-static void write_word(struct files *f, uint32_t word)
-{
-    unsigned char b[4];
-    for (int i = 0; i < 4; i++)
-        b[i] = (unsigned char)(word >> (8 * i));
-    if (fwrite(b, 1, 4, f->output) != 4)
-        fail(f->output_name, "cannot be written");
-}
-
-static void write_float(struct files *f, float value)
-{
-    uint32_t word;
-    memcpy(&word, &value, sizeof word);
-    write_word(f, word);
-}
-
-static vec3 need_vec3(struct files *f)
-{
-    float x = need_float(f), y = need_float(f);
-    return vec3_make(x, y, need_float(f));
-}
-
-static struct transform need_rotation(struct files *f)
+static struct transform take_rotation(struct probe *p)
 {
     float rows[16] = {0};
     struct transform t;
     for (int i = 0; i < 9; i++)
-        rows[i / 3 * 4 + i % 3] = need_float(f);
+        rows[i / 3 * 4 + i % 3] = take_float(p);
     rows[15] = 1.0f;
     if (!transform_from_rows(rows, &t))
-        fail(f->input_name, "a rotation has no inverse");
+        probe_fail(p, p->input_name, "a rotation has no inverse");
     return t;
 }
 
-static struct image need_image(struct files *f, uint32_t width, uint32_t height)
+static struct image take_image(struct probe *p, uint32_t width, uint32_t height)
 {
     if (width - 1 >= 4096 || height - 1 >= 4096)
-        fail(f->input_name, "an image is too large or empty");
+        probe_fail(p, p->input_name, "an image is too large or empty");
     struct image image = image_make((int)width, (int)height);
-    for (uint32_t i = 0; i < width * height; i++) {
-        vec3 c = need_vec3(f);
-        image.pixels[i] = rgb_make(c.x, c.y, c.z);
-    }
+    for (uint32_t i = 0; i < width * height; i++)
+        image.pixels[i] = take_rgb(p);
     return image;
 }
 
-static void ask_direction(struct files *f, const struct environment *e)
+static void ask_direction(struct probe *p, const struct environment *e)
 {
-    vec3 direction = need_vec3(f);
-    rgb c = environment_radiance(e, direction);
-    write_float(f, c.r);
-    write_float(f, c.g);
-    write_float(f, c.b);
-    write_float(f, environment_pdf(e, direction));
+    vec3 direction = take_vec3(p);
+    put_rgb(p, environment_radiance(e, direction));
+    put_float(p, environment_pdf(e, direction));
 }
 
 /* A direction just beside d, turned by `turn` quarters. */
@@ -138,38 +65,32 @@ static vec3 beside(vec3 d, int turn)
 }
 
 /* Other numbers are asked between the two picks: none may be remembered. */
-static void ask_pick(struct files *f, const struct environment *e)
+static void ask_pick(struct probe *p, const struct environment *e)
 {
     vec3 d = {0.0f, 0.0f, 1.0f}, other, again = d;
-    float x = need_float(f), y = need_float(f);
-    float density = environment_sample(e, vec2_make(x, y), &d);
-    environment_sample(e, vec2_make(0.5f * y, 0.5f * x), &other);
-    float same = environment_sample(e, vec2_make(x, y), &again);
-    write_float(f, d.x);
-    write_float(f, d.y);
-    write_float(f, d.z);
-    write_float(f, density);
+    vec2 random = take_vec2(p);
+    float density = environment_sample(e, random, &d);
+    environment_sample(e, vec2_make(0.5f * random.y, 0.5f * random.x), &other);
+    float same = environment_sample(e, random, &again);
+    put_vec3(p, d);
+    put_float(p, density);
     bool usable = density != 0.0f && vec3_is_finite(d);
     vec3 asked = usable ? vec3_normalize(d) : vec3_make(0.0f, 0.0f, 1.0f);
-    write_float(f, environment_pdf(e, asked));
+    put_float(p, environment_pdf(e, asked));
     for (int turn = 0; turn < 4; turn++)
-        write_float(f, environment_pdf(e, beside(asked, turn)));
+        put_float(p, environment_pdf(e, beside(asked, turn)));
     bool differs = memcmp(&d, &again, sizeof d) != 0 ||
                    memcmp(&density, &same, sizeof same) != 0;
-    write_word(f, differs ? OTHER_DIRECTION : 0);
+    put_word(p, differs ? OTHER_DIRECTION : 0);
 }
 
-/* false at the end of the file. */
-static bool ask_block(struct files *f)
+static void ask_block(struct probe *p)
 {
-    uint32_t width;
-    if (!read_word(f, &width))
-        return false;
-    uint32_t height = need_word(f);
-    uint32_t directions = need_word(f), pairs = need_word(f);
-    float scale = need_float(f);
-    struct transform rotation = need_rotation(f);
-    struct image image = need_image(f, width, height);
+    uint32_t width = take_word(p), height = take_word(p);
+    uint32_t directions = take_word(p), pairs = take_word(p);
+    float scale = take_float(p);
+    struct transform rotation = take_rotation(p);
+    struct image image = take_image(p, width, height);
     struct environment e = environment_make(&image, scale, rotation);
     /* A second one: each has its own table. */
     struct image grey = image_make(2, 2);
@@ -177,36 +98,19 @@ static bool ask_block(struct files *f)
     struct environment other =
         environment_make(&grey, 1.0f, transform_identity());
     for (uint32_t i = 0; i < directions; i++)
-        ask_direction(f, &e);
+        ask_direction(p, &e);
     for (uint32_t i = 0; i < pairs; i++)
-        ask_pick(f, &e);
+        ask_pick(p, &e);
     environment_free(&other);
     environment_free(&e);
     image_free(&grey);
     image_free(&image);
-    return true;
-}
-
-static FILE *open_or_fail(const char *name, const char *mode)
-{
-    FILE *file = fopen(name, mode);
-    if (!file)
-        fail(name, "cannot be opened");
-    return file;
 }
 
 int main(int argc, char **argv)
 {
-    if (argc != 4) {
-        fprintf(stderr, "usage: probe_environment INPUT OUTPUT GROUP\n");
-        return 2;
-    }
-    struct files f = {argv[1], argv[2], open_or_fail(argv[1], "rb"),
-                      open_or_fail(argv[2], "wb")};
-    while (ask_block(&f))
-        continue;
-    if (fclose(f.output) != 0)
-        fail(argv[2], "cannot be written");
-    fclose(f.input);
-    return 0;
+    struct probe p = probe_open("probe_environment", argc, argv);
+    while (probe_more(&p))
+        ask_block(&p);
+    return probe_close(&p);
 }
