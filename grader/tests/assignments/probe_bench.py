@@ -12,8 +12,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import pytest
+
 from raybook_grader.checks.oracles import cases_of, load_oracle
-from raybook_grader.course import Assignment, ProbeCheck, UnitCheck, load_course
+from raybook_grader.course import Assignment, CostCheck, ProbeCheck, UnitCheck, load_course
 from raybook_grader.kit import load_kit
 from raybook_grader.probes import Cases, Failure
 
@@ -98,17 +100,31 @@ class Bench:
     def judge(self, check: str, cases: Cases, output: bytes) -> list[Failure]:
         return load_oracle(self.assignment.folder / self.probes[check].oracle).judge(cases, output)
 
+    def driver(
+        self, check: ProbeCheck | CostCheck, module: Path, cc: str = "gcc",
+        flags: Sequence[str] = ("-O2",),
+    ) -> Path:  # fmt: skip
+        """A check's driver with a module."""
+        return self.program(self.assignment.folder / check.driver, module, cc, flags)
+
+    def answers(
+        self, check: ProbeCheck | CostCheck, cases: Cases, module: Path, cc: str = "gcc",
+        flags: Sequence[str] = ("-O2",),
+    ) -> bytes:  # fmt: skip
+        """What a check's driver says about the module."""
+        driver = self.driver(check, module, cc, flags)
+        given, results = self.folder / "cases.bin", self.folder / "results.bin"
+        given.write_bytes(cases.payload)
+        run(str(driver), str(given), str(results), check.group)
+        return results.read_bytes()
+
     def failures(
         self, module: Path, check: str, cc: str = "gcc", flags: Sequence[str] = ("-O2",),
         seed: int | None = None,
     ) -> list[Failure]:  # fmt: skip
         """What the oracle of a probe says of the module."""
-        probe, cases = self.probes[check], self.cases(check, seed)
-        driver = self.program(self.assignment.folder / probe.driver, module, cc, flags)
-        given, results = self.folder / "cases.bin", self.folder / "results.bin"
-        given.write_bytes(cases.payload)
-        run(str(driver), str(given), str(results), probe.group)
-        return self.judge(check, cases, results.read_bytes())
+        cases = self.cases(check, seed)
+        return self.judge(check, cases, self.answers(self.probes[check], cases, module, cc, flags))
 
     def failing(self, module: Path, cc: str = "gcc", flags: Sequence[str] = ("-O2",)) -> set[str]:
         """The names of the checks that the module fails: unit tests and probes."""
@@ -133,7 +149,22 @@ def assignment_of(number: str) -> Assignment:
     return load_course(ROOT).assignment(number)
 
 
+def bench_fixture(assignment: Assignment) -> object:
+    """The fixture `bench` of a file of tests."""
+
+    @pytest.fixture(scope="module")
+    def bench(tmp_path_factory: pytest.TempPathFactory) -> Bench:
+        return Bench(tmp_path_factory.mktemp(assignment.module), assignment)
+
+    return bench
+
+
 def right_modules(assignment: Assignment) -> list[Path]:
     """The reference and the alternatives, which are whole files; of each only what it changes."""
     alternatives = sorted((assignment.folder / "alternatives").rglob("*.c"))
     return [*(ROOT / path for path in assignment.owned), *alternatives]
+
+
+def name_of(module: Path) -> str:
+    """For the name of a test."""
+    return f"{module.parent.name}/{module.stem}"

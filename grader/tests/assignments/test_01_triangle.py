@@ -1,19 +1,17 @@
-"""Assignment 01 judges rightly, with any compiler, any seed and any answer.
+"""Assignment 01 judges rightly: what its probes see, and in which words.
 
-That each mistake fails what it announces is tested for all assignments in test_museum.py.
+What all assignments have in common is tested in test_every_probe.py and test_museum.py.
 """
 
 from __future__ import annotations
 
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from probe_bench import COMPILERS, Bench, assignment_of, right_modules
+from probe_bench import Bench, assignment_of, bench_fixture, right_modules
 
 from raybook_grader.cases import read_table
-from raybook_grader.checks.oracles import load_oracle
 
 ASSIGNMENT = assignment_of("01")
 FOLDER = ASSIGNMENT.folder
@@ -24,19 +22,10 @@ EDGES, RANDOM = "edge cases", "hits match exact arithmetic"
 DEGENERATE, DIFFERENTIALS = "triangles without area", "texture differentials"
 PROBES = [EDGES, RANDOM, DEGENERATE, DIFFERENTIALS]
 
-
-@pytest.fixture(scope="module")
-def bench(tmp_path_factory: pytest.TempPathFactory) -> Bench:
-    return Bench(tmp_path_factory.mktemp("triangle"), ASSIGNMENT)
+bench = bench_fixture(ASSIGNMENT)
 
 
 # --- What is right passes ---------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("cc, level", COMPILERS)
-@pytest.mark.parametrize("module", RIGHT, ids=lambda file: file.stem)
-def test_right_modules_pass(bench: Bench, module: Path, cc: str, level: str) -> None:
-    assert bench.failing(module, cc, (level,)) == set()
 
 
 @pytest.mark.parametrize("module", RIGHT, ids=lambda file: file.stem)
@@ -117,15 +106,6 @@ def test_half_a_solution_earns_its_half(bench: Bench, todo: str, expected: set[s
 # --- The cases --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("check", PROBES)
-def test_cases_are_the_same_for_the_same_seed(bench: Bench, check: str) -> None:
-    probe = bench.probes[check]
-    oracle = load_oracle(FOLDER / probe.oracle)
-    seven, again, eight = (oracle.make_cases(probe.group, seed).payload for seed in (7, 7, 8))
-    assert seven == again
-    assert (seven == eight) == (check == EDGES)
-
-
 def table(name: str) -> list[list[str]]:
     return read_table(FOLDER / "hidden" / name)
 
@@ -178,35 +158,3 @@ def test_a_failure_is_told_in_words(bench: Bench, tmp_path: Path) -> None:
         "expected a hit at t = 5, b1 = 0.5, b2 = 0, got none"
     )
     assert simplest.fingerprint == "missed: edge"
-
-
-@pytest.mark.parametrize("check", PROBES)
-@pytest.mark.parametrize("size", [0, 1, 4321])
-def test_an_output_of_a_wrong_length_is_one_failure(bench: Bench, check: str, size: int) -> None:
-    failures = bench.judge(check, bench.cases(check), bytes(size))
-    assert [failure.fingerprint for failure in failures] == ["output of a wrong length"]
-    assert f"wrote {size} bytes" in failures[0].message
-
-
-@pytest.mark.parametrize("byte", [0x7F, 0xFF])
-@pytest.mark.parametrize("check", PROBES)
-def test_any_bytes_are_judged(bench: Bench, check: str, byte: int) -> None:
-    words = 8 if check == DIFFERENTIALS else 5
-    cases = bench.cases(check)
-    assert bench.judge(check, cases, bytes([byte]) * (4 * words * cases.count))
-
-
-def test_the_driver_refuses_bad_files(bench: Bench, tmp_path: Path) -> None:
-    driver = bench.program(FOLDER / "hidden/probe_triangle.c", bench.module, "gcc", ("-O2",))
-    short = tmp_path / "short.bin"
-    short.write_bytes(bytes(100))
-    out = str(tmp_path / "out.bin")
-    for arguments, message in [
-        ([], "usage: "),
-        ([str(tmp_path / "none.bin"), out, "edges"], "none.bin: cannot be opened"),
-        ([str(short), out, "edges"], "short.bin: ends inside a record"),
-        ([str(short), str(tmp_path / "no" / "out.bin"), "edges"], "out.bin: cannot be opened"),
-    ]:
-        done = subprocess.run([driver, *arguments], capture_output=True, text=True)
-        assert done.returncode == 2
-        assert message in done.stderr

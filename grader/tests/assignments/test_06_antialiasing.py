@@ -1,6 +1,6 @@
-"""Assignment 06 judges rightly, with any compiler, any seed and any answer.
+"""Assignment 06 judges rightly: what its probes see, and in which words.
 
-That each mistake fails what it announces is tested for all assignments in test_museum.py.
+What all assignments have in common is tested in test_every_probe.py and test_museum.py.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from probe_bench import COMPILERS, Bench, assignment_of, right_modules, run
+from probe_bench import Bench, assignment_of, bench_fixture, right_modules
 from scipy.integrate import quad
 
 from raybook_grader.checks.oracles import load_oracle
@@ -26,16 +26,7 @@ PLACES, SPREAD, EVEN, VALUE = PROBES = [
     "value is the weighted mean",
 ]
 
-
-@pytest.fixture(scope="module")
-def bench(tmp_path_factory: pytest.TempPathFactory) -> Bench:
-    return Bench(tmp_path_factory.mktemp("pixel"), ASSIGNMENT)
-
-
-@pytest.mark.parametrize("cc, level", COMPILERS)
-@pytest.mark.parametrize("module", RIGHT, ids=lambda file: file.stem)
-def test_right_modules_pass(bench: Bench, module: Path, cc: str, level: str) -> None:
-    assert bench.failing(module, cc, (level,)) == set()
+bench = bench_fixture(ASSIGNMENT)
 
 
 @pytest.mark.parametrize("module", RIGHT, ids=lambda file: file.stem)
@@ -135,14 +126,6 @@ def test_the_strips_hold_the_filter_evenly(spread: Any) -> None:
             assert f.shares(edges) == pytest.approx(1 / spread.STRIPS, rel=2e-2)
 
 
-@pytest.mark.parametrize("check", PROBES)
-def test_cases_are_the_same_for_the_same_seed(bench: Bench, check: str) -> None:
-    probe = bench.probes[check]
-    oracle = load_oracle(ASSIGNMENT.folder / probe.oracle)
-    seven, again, eight = (oracle.make_cases(probe.group, seed).payload for seed in (7, 7, 8))
-    assert seven == again != eight
-
-
 # --- Words ------------------------------------------------------------------------------------
 
 
@@ -161,26 +144,3 @@ def test_a_wrong_value_is_told_in_words(bench: Bench, tmp_path: Path) -> None:
         "two weights: added (1, 0, 4) with weight 0.5, (5, 8, 4) with weight 1.5: "
         "got (3, 4, 4), expected (4, 6, 4)" in told
     )
-
-
-@pytest.mark.parametrize("check", PROBES)
-@pytest.mark.parametrize("size", [0, 1, 4321])
-def test_an_output_of_a_wrong_length_is_one_failure(bench: Bench, check: str, size: int) -> None:
-    failures = bench.judge(check, bench.cases(check), bytes(size))
-    assert [failure.fingerprint for failure in failures] == ["output of a wrong length"]
-
-
-@pytest.mark.parametrize("byte", [0x7F, 0xFF])
-@pytest.mark.parametrize("check", PROBES)
-def test_any_bytes_are_judged(bench: Bench, check: str, byte: int) -> None:
-    cases = bench.cases(check)
-    assert bench.judge(check, cases, bytes([byte]) * (16 * cases.count))
-
-
-def test_the_driver_refuses_a_file_that_ends_too_early(bench: Bench, tmp_path: Path) -> None:
-    source = HIDDEN / "probe_pixel_sampling.c"
-    driver = bench.program(source, bench.module, "gcc", ("-O2",))
-    short = tmp_path / "short.bin"
-    short.write_bytes(bytes(100))
-    with pytest.raises(AssertionError, match=r"short\.bin: ends inside a record"):
-        run(str(driver), str(short), str(tmp_path / "out.bin"), "places")

@@ -1,16 +1,11 @@
-"""Assignment 10's probes, the public tests aside: are their oracles right, and what do they see?
+"""Assignment 10's probes: are their oracles right, and what do they see?
 
-What alternatives and mistakes do is in test_museum.py. Here C files are compiled straight from the
-checkout, without the box and without the kit.
+What all assignments have in common is tested in test_every_probe.py and test_museum.py.
 """
 
 from __future__ import annotations
 
-import subprocess
 import sys
-import tomllib
-from collections.abc import Sequence
-from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 from types import ModuleType
@@ -18,140 +13,91 @@ from typing import Any
 
 import numpy as np
 import pytest
+from probe_bench import Bench, assignment_of, bench_fixture, right_modules
 
-from raybook_grader.checks.oracles import cases_of, load_oracle
-from raybook_grader.probes import Cases, Failure
+from raybook_grader.checks.oracles import load_oracle
 
-ROOT = Path(__file__).resolve().parents[3]
-FOLDER = ROOT / "assignments" / "10-mipmap"
-MODULE = ROOT / "src" / "textures" / "mipmap.c"
-GIVEN = ["textures/levels", "textures/ellipse", "base/todo", "base/memory", "image/image"]
-FLAGS = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-ffp-contract=off"]
-TABLE: dict[str, Any] = tomllib.loads((FOLDER / "assignment.toml").read_text())
-PROBES = {c["group"]: c for c in TABLE["check"] if c["kind"] == "probe"}
-RIGHT = [MODULE, *sorted((FOLDER / "alternatives").glob("*.c"))]
-WORDS = {"level": 1, "trilinear": 3, "ewa": 3}
-
-
-@dataclass
-class Workshop:
-    """Compiles modules with the driver; keeps what does not change."""
-
-    folder: Path
-    objects: list[str] = field(default_factory=list)
-
-    def program(self, module: Path, flags: Sequence[str] = ()) -> Path:
-        sources = [FOLDER / "hidden" / "probe_mipmap.c"]
-        sources += [ROOT / "src" / f"{name}.c" for name in GIVEN]
-        for i in range(len(self.objects), len(sources)):
-            out = self.folder / f"{i}.o"
-            _run("gcc", *FLAGS, "-O1", f"-I{ROOT / 'src'}", "-c", sources[i], "-o", out)
-            self.objects.append(str(out))
-        program = self.folder / f"probe-{len(list(self.folder.glob('probe-*')))}"
-        include = f"-I{ROOT / 'src'}"
-        _run("gcc", *FLAGS, "-O1", *flags, include, module, *self.objects, "-lm", "-o", program)
-        return program
-
-    def failures(self, program: Path, group: str, seed: int | None = None) -> list[Failure]:
-        cases = _cases(group, seed)
-        given, results = self.folder / "cases.bin", self.folder / "results.bin"
-        given.write_bytes(cases.payload)
-        _run(program, given, results, group)
-        failures: list[Failure] = _oracle(group).judge(cases, results.read_bytes())
-        return failures
-
-    def failing(self, module: Path, flags: Sequence[str] = ()) -> set[str]:
-        program = self.program(module, flags)
-        return {group for group in PROBES if self.failures(program, group)}
+ASSIGNMENT = assignment_of("10")
+RIGHT = right_modules(ASSIGNMENT)
+PYRAMID, LEVEL, TRILINEAR, EWA = PROBES = [
+    "every level is the mean of the image",
+    "the level fits the footprint",
+    "trilinear lookups",
+    "elliptically weighted averages",
+]
 
 
-def _run(*command: str | Path) -> None:
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=60)
-    assert done.returncode == 0, f"{command}\n{done.stdout}{done.stderr}"
-
-
-def _oracle(group: str) -> Any:
-    return load_oracle(FOLDER / PROBES[group]["oracle"])
-
-
-def _cases(group: str, seed: int | None = None) -> Cases:
-    return cases_of(FOLDER / PROBES[group]["oracle"], group, seed or PROBES[group]["seed"])
+def _oracle(name: str) -> Any:
+    return load_oracle(ASSIGNMENT.folder / "hidden" / f"oracle_{name}.py")
 
 
 def _hidden(name: str) -> ModuleType:
     """A neighbour of the oracles, as they imported it."""
-    for group in PROBES:
-        _oracle(group)
+    for oracle in ("pyramid", "lookup", "ewa"):
+        _oracle(oracle)
     return sys.modules[name]
 
-
-@pytest.fixture(scope="module")
-def workshop(tmp_path_factory: pytest.TempPathFactory) -> Workshop:
-    return Workshop(tmp_path_factory.mktemp("mipmap"))
+bench = bench_fixture(ASSIGNMENT)
 
 
 # --- What is right passes, what is half done fails by half ------------------------------------
 
 
 @pytest.mark.parametrize("module", RIGHT, ids=lambda file: file.stem)
-def test_right_modules_pass_with_other_seeds(workshop: Workshop, module: Path) -> None:
-    program = workshop.program(module)
-    for group in PROBES:
-        assert workshop.failures(program, group, 101) == [], group
+def test_right_modules_pass_with_other_seeds(bench: Bench, module: Path) -> None:
+    for check in PROBES:
+        assert bench.failures(module, check, seed=101) == [], check
 
 
 @pytest.mark.parametrize(
     "todos, expected",
     [
-        (["mipmap_pyramid"], {"pyramid"}),
-        (["mipmap_level"], {"level", "trilinear"}),
-        (["mipmap_trilinear"], {"trilinear"}),
-        (["mipmap_ewa"], {"ewa"}),
-        (TABLE["todos"], set(PROBES)),
+        (("mipmap_pyramid",), {PYRAMID}),
+        (("mipmap_level",), {LEVEL, TRILINEAR}),
+        (("mipmap_trilinear",), {TRILINEAR}),
+        (("mipmap_ewa",), {EWA}),
+        (ASSIGNMENT.todos, set(PROBES)),
     ],
 )
 def test_a_stub_fails_its_own_probes(
-    workshop: Workshop, todos: list[str], expected: set[str]
+    bench: Bench, todos: tuple[str, ...], expected: set[str]
 ) -> None:
-    assert workshop.failing(MODULE, [f"-DTODO_{todo}" for todo in todos]) == expected
+    flags = ["-O1", *(f"-DTODO_{todo}" for todo in todos)]
+    assert bench.failing(bench.module, "gcc", flags) == {bench.unit.name} | expected
 
 
 MUTANTS = {
-    "one texel for three": ("* from + to - 1) / to);", "* from) / to);", "pyramid"),
+    "one texel for three": ("* from + to - 1) / to);", "* from) / to);", PYRAMID),
     "rows for columns": ("overlapped(y, from->height, to->height)",
-                         "overlapped(y, from->width, to->width)", "pyramid"),
-    "rounded up": ("size > 1 ? size / 2 : 1", "size > 1 ? (size + 1) / 2 : 1", "pyramid"),
-    "not the last level": ("return count;", "return count > 1 ? count - 1 : 1;", "pyramid"),
-    "level a tenth higher": ("log2(fmax(longer, 1.0))", "log2(fmax(1.02 * longer, 1.0))", "level"),
+                         "overlapped(y, from->width, to->width)", PYRAMID),
+    "rounded up": ("size > 1 ? size / 2 : 1", "size > 1 ? (size + 1) / 2 : 1", PYRAMID),
+    "not the last level": ("return count;", "return count > 1 ? count - 1 : 1;", PYRAMID),
+    "level a tenth higher": ("log2(fmax(longer, 1.0))", "log2(fmax(1.02 * longer, 1.0))", LEVEL),
     "only uv_dx": ("fmax(length_in_texels(m, uv_dx), length_in_texels(m, uv_dy))",
-                   "fmax(length_in_texels(m, uv_dx), 0.0 * uv_dy.x)", "level"),
+                   "fmax(length_in_texels(m, uv_dx), 0.0 * uv_dy.x)", LEVEL),
     "the sum of both": ("fmax(length_in_texels(m, uv_dx), length_in_texels(m, uv_dy))",
-                        "length_in_texels(m, uv_dx) + length_in_texels(m, uv_dy)", "level"),
+                        "length_in_texels(m, uv_dx) + length_in_texels(m, uv_dy)", LEVEL),
     "the finer level alone": ("return rgb_mix(color, mipmap_bilinear(m, fine + 1, uv),",
-                              "return rgb_mix(color, mipmap_bilinear(m, fine, uv),", "trilinear"),
+                              "return rgb_mix(color, mipmap_bilinear(m, fine, uv),", TRILINEAR),
     "nearest": ("return rgb_mix(color, mipmap_bilinear(m, fine + 1, uv),",
-                "return rgb_mix(color, mipmap_nearest(m, fine + 1, uv),", "trilinear"),
+                "return rgb_mix(color, mipmap_nearest(m, fine + 1, uv),", TRILINEAR),
     "a square for a bell": ("return fmaxf(expf(-2.0f * (float)distance2) - lowest, 0.0f);",
-                            "return distance2 + lowest > 0.0 ? 1.0 : 0.0;", "ewa"),
-    "a narrow bell": ("expf(-2.0f *", "expf(-6.0f *", "ewa"),
-    "the mirrored ellipse": ("double slope = e.xy / e.yy", "double slope = -e.xy / e.yy", "ewa"),
+                            "return distance2 + lowest > 0.0 ? 1.0 : 0.0;", EWA),
+    "a narrow bell": ("expf(-2.0f *", "expf(-6.0f *", EWA),
+    "the mirrored ellipse": ("double slope = e.xy / e.yy", "double slope = -e.xy / e.yy", EWA),
     "beside the middle": ("uv.x, image->width) - 0.5;\n    double center_y",
-                          "uv.x, image->width);\n    double center_y", "ewa"),
+                          "uv.x, image->width);\n    double center_y", EWA),
     "two levels too high": ("shortest / fewest_texels, 1.0",
-                            "4.0 * shortest / fewest_texels, 1.0", "ewa"),
+                            "4.0 * shortest / fewest_texels, 1.0", EWA),
     "without a mix": ("return rgb_mix(color, ewa_on_level(m, fine + 1, uv, &e),",
-                      "return rgb_mix(rgb_grey(0.5f), color,", "ewa"),
+                      "return rgb_mix(rgb_grey(0.5f), color,", EWA),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("mutant", MUTANTS)
-def test_small_faults_are_found(workshop: Workshop, mutant: str, tmp_path: Path) -> None:
-    old, new, group = MUTANTS[mutant]
-    text = MODULE.read_text()
-    assert text.count(old) == 1, f"{MODULE.name} no longer says {old!r} once"
-    module = tmp_path / "mipmap.c"
-    module.write_text(text.replace(old, new))
-    assert workshop.failures(workshop.program(module), group)
+def test_small_faults_are_found(bench: Bench, mutant: str, tmp_path: Path) -> None:
+    old, new, check = MUTANTS[mutant]
+    assert bench.failures(bench.mutant(old, new, tmp_path), check, "gcc", ("-O1",))
 
 
 # --- The oracles ------------------------------------------------------------------------------
@@ -175,7 +121,7 @@ def test_means_of_steps_keep_the_mean_of_the_image() -> None:
 
 
 def test_levels_by_hand() -> None:
-    oracle, cases = _oracle("level"), _hidden("mipmap_cases")
+    oracle, cases = _oracle("lookup"), _hidden("mipmap_cases")
     m = cases.Mipmap("m", 0, cases.pyramid(np.zeros((8, 128, 3))))
     nan = np.array([np.nan, 0.0])
     for dx, dy, level in [
@@ -209,9 +155,9 @@ def test_the_bounds_hold_the_gaussian(rho: float) -> None:
     assert largest - least < 0.35
 
 
-def test_the_exact_integral_is_accepted() -> None:
+def test_the_exact_integral_is_accepted(bench: Bench) -> None:
     """Not sums of texels but waves under the untruncated bell, by the closed form."""
-    oracle, cases = _oracle("ewa"), _cases("ewa")
+    cases = bench.cases(EWA)
     output = np.zeros((cases.count, 3), "<f4")
     waves = []
     for i, lookup in enumerate(cases.context.lookups):
@@ -227,61 +173,29 @@ def test_the_exact_integral_is_accepted() -> None:
         rho2 = float(np.sum((lengths * (axes.T @ k)) ** 2))
         wave = np.exp(2j * np.pi * (k @ (lookup.uv * m.size)) - np.pi**2 * rho2 / 2)
         output[i] = 0.5 + 0.5 * wave.real, 0.5 + 0.5 * wave.imag, 0.5
-    wrong = {failure.case for failure in oracle.judge(cases, output.tobytes())}
+    wrong = {failure.case for failure in bench.judge(EWA, cases, output.tobytes())}
     assert len(waves) > 2000 and not wrong & set(waves)
 
 
-@pytest.mark.parametrize("group", PROBES)
-def test_cases_depend_on_the_seed_alone(group: str) -> None:
-    seven, again, eight = (_oracle(group).make_cases(group, s).payload for s in (7, 7, 8))
-    assert seven == again != eight
-    assert _cases(group).count >= (90 if group == "pyramid" else 3000)
+@pytest.mark.parametrize("check", PROBES)
+def test_there_are_enough_cases(bench: Bench, check: str) -> None:
+    assert bench.cases(check).count >= (90 if check == PYRAMID else 3000)
 
 
 # --- Words ------------------------------------------------------------------------------------
 
 
-def test_failures_are_told_in_words(workshop: Workshop, tmp_path: Path) -> None:
-    module = tmp_path / "mipmap.c"
-    text = MODULE.read_text()
-    module.write_text(text.replace("log2(fmax(longer, 1.0))", "floor(log2(fmax(longer, 1.0)))"))
-    failures = workshop.failures(workshop.program(module), "trilinear")
-    simplest = max(failures, key=lambda failure: failure.simplicity)
+def test_failures_are_told_in_words(bench: Bench, tmp_path: Path) -> None:
+    old = "log2(fmax(longer, 1.0))"
+    module = bench.mutant(old, f"floor({old})", tmp_path)
+    simplest = max(bench.failures(module, TRILINEAR), key=lambda failure: failure.simplicity)
     assert "mipmap of " in simplest.message and "expected" in simplest.message
-    module.write_text(text.replace("last->width > 1 ||", "last->width > 1 &&"))
-    failures = workshop.failures(workshop.program(module), "pyramid")
-    simplest = max(failures, key=lambda failure: failure.simplicity)
+
+
+def test_a_missing_level_is_told_in_words(bench: Bench, tmp_path: Path) -> None:
+    module = bench.mutant("last->width > 1 ||", "last->width > 1 &&", tmp_path)
+    simplest = max(bench.failures(module, PYRAMID), key=lambda failure: failure.simplicity)
     assert simplest.message == (
         "pyramid over a ramp of 2 x 1 texels: expected 2 levels (the last one is 1 x 1), got 1"
     )
     assert simplest.fingerprint == "number of levels"
-
-
-@pytest.mark.parametrize("group", PROBES)
-@pytest.mark.parametrize("size", [0, 1, 4321])
-def test_an_output_of_a_wrong_length_is_one_failure(group: str, size: int) -> None:
-    failures = _oracle(group).judge(_cases(group), bytes(size))
-    assert [failure.fingerprint for failure in failures] == ["output of a wrong length"]
-
-
-@pytest.mark.parametrize("byte", [0x00, 0x7F, 0xFF])
-@pytest.mark.parametrize("group", WORDS)
-def test_any_bytes_are_judged(group: str, byte: int) -> None:
-    cases = _cases(group)
-    assert _oracle(group).judge(cases, bytes([byte]) * (4 * WORDS[group] * cases.count))
-
-
-def test_the_driver_refuses_bad_files(workshop: Workshop, tmp_path: Path) -> None:
-    driver = workshop.program(MODULE)
-    short = tmp_path / "short.bin"
-    short.write_bytes(bytes([1]) + bytes(9))
-    out = str(tmp_path / "out.bin")
-    for arguments, message in [
-        ([], "usage: "),
-        ([str(tmp_path / "none.bin"), out, "level"], "none.bin: cannot be opened"),
-        ([str(short), out, "level"], "short.bin: ends inside a word"),
-        ([str(short), str(tmp_path / "no" / "out.bin"), "level"], "out.bin: cannot be opened"),
-    ]:
-        done = subprocess.run([driver, *arguments], capture_output=True, text=True)
-        assert done.returncode == 2
-        assert message in done.stderr
