@@ -123,6 +123,12 @@ mitsuba: ## [ARGS="--spp 4096"] compares our pictures with Mitsuba 3's, in a ven
 	@$(MAKE) -s $(program)
 	@grader/tests/mitsuba/compare.sh --raybook "$(program)" $(ARGS)
 
+class: ## [N=200] [SEED=1] [A=01,03] grades a made-up class, and compares every score with what it must be
+	@.setup/setup.sh
+	@$(MAKE) kit
+	@$(python) grader/tests/classroom/classroom.py $(or $(N),200) --seed $(or $(SEED),1) \
+	    $(if $(A),--assignment $(A)) $(ARGS)
+
 fuzz: ## [SECONDS=600] searches for files that crash the readers of scenes, meshes and images
 	@.setup/setup.sh
 	@$(python) grader/tests/fuzz/run.py --seconds $(or $(SECONDS),600) $(ARGS)
@@ -131,5 +137,5 @@ clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
 .PHONY: help setup build render test format check-format check-python check watch hint \
-    debug handout grade museum calibrate references kit objects variance mitsuba fuzz \
-    clean
+    debug handout grade museum calibrate references kit objects variance mitsuba class \
+    fuzz clean
