@@ -123,6 +123,11 @@ mitsuba: ## [ARGS="--spp 4096"] compares our pictures with Mitsuba 3's, in a ven
 	@$(MAKE) -s $(program)
 	@grader/tests/mitsuba/compare.sh --raybook "$(program)" $(ARGS)
 
+judge-table: ## [ARGS="--looks 5"] the verdict on light that is 2 % off, and on noise that is right
+	@.setup/setup.sh
+	@$(MAKE) kit
+	@$(python) grader/tests/judge/judge_table.py $(ARGS)
+
 class: ## [N=200] [SEED=1] [A=01,03] grades a made-up class, and compares every score with what it must be
 	@.setup/setup.sh
 	@$(MAKE) kit
@@ -137,5 +142,5 @@ clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
 .PHONY: help setup build render test format check-format check-python check watch hint \
-    debug handout grade museum calibrate references kit objects variance mitsuba class \
-    fuzz clean
+    debug handout grade museum calibrate references kit objects variance mitsuba judge-table \
+    class fuzz clean
