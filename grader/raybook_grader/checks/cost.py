@@ -31,7 +31,7 @@ def check_cost(check: CostCheck, subject: Subject) -> CheckResult:
     folder = subject.assignment.folder
     cases = cases_of(folder / check.oracle, check.group, check.seed)
     result = subject.run(
-        subject.workshop.driver(subject.module, folder / check.driver),
+        subject.driver(folder / check.driver),
         _arguments(check),
         inputs={"cases.bin": cases.payload},
         collect=[_RESULTS],

@@ -22,7 +22,7 @@ def check_probe(check: ProbeCheck, subject: Subject) -> CheckResult:
     """
     folder = subject.assignment.folder
     cases = cases_of(folder / check.oracle, check.group, check.seed)
-    program = subject.workshop.driver(subject.module, folder / check.driver)
+    program = subject.driver(folder / check.driver)
     result = subject.run(
         program,
         ["cases.bin", "results.bin", check.group],

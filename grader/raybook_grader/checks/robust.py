@@ -29,7 +29,7 @@ def check_robust(check: RobustCheck, subject: Subject) -> CheckResult:
     """
     folder = subject.assignment.folder
     cases = cases_of(folder / check.oracle, check.group, check.seed)
-    program = subject.workshop.sanitized_driver(subject.module, folder / check.driver)
+    program = subject.sanitized_driver(folder / check.driver)
     try:
         result = subject.run(
             program,

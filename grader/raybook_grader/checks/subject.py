@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..course import Assignment
@@ -27,12 +27,16 @@ class Stopped(Exception):
 
 @dataclass(frozen=True)
 class Subject:
-    """A module that compiled and linked. ``renderer`` is the renderer with it."""
+    """A module that compiled and linked. ``renderer`` is the renderer with it.
+
+    Other programs with it are linked when first asked for, and kept: several checks share a driver.
+    """
 
     workshop: Workshop
     assignment: Assignment
     module: ModuleObjects
     renderer: bytes
+    _programs: dict[tuple[str, Path], bytes] = field(default_factory=dict, repr=False)
 
     @property
     def limits(self) -> Limits:
@@ -43,6 +47,19 @@ class Subject:
             cpu_seconds=limits.wall_seconds,
             memory_bytes=limits.memory_mib << 20,
         )
+
+    def driver(self, source: Path) -> bytes:
+        """`Workshop.driver` with this module."""
+        return self._once("driver", self.workshop.driver, source)
+
+    def sanitized_driver(self, source: Path) -> bytes:
+        """`Workshop.sanitized_driver` with this module."""
+        return self._once("sanitized driver", self.workshop.sanitized_driver, source)
+
+    def _once(self, kind: str, link: Callable[[ModuleObjects, Path], bytes], source: Path) -> bytes:
+        if (kind, source) not in self._programs:
+            self._programs[kind, source] = link(self.module, source)
+        return self._programs[kind, source]
 
     def run(
         self,

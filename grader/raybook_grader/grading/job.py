@@ -36,7 +36,9 @@ class Worker:
     kit: Path
 
     def workshop(self) -> Workshop:
-        return Workshop(load_course(self.root), load_kit(self.kit), Box())
+        kit = load_kit(self.kit)
+        # Nobody makes the kit anew in the middle of a run: its files are looked at once.
+        return Workshop(load_course(self.root), kit, Box([kit.include, kit.folder / "objects"]))
 
     def __call__(self) -> Callable[[Job], ModuleResult]:
         workshop = self.workshop()
