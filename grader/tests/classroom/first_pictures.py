@@ -18,21 +18,22 @@ _DATABASE, _PICTURE = "compile_commands.json", "first-picture.exr"
 def first_pictures(
     assignment: Assignment, sources: Sequence[str], count: int, rng: random.Random
 ) -> list[Version]:
-    """``count`` different versions, of which each has a database, a picture, both or neither."""
+    """``count`` different versions: all that is asked for, nothing, then what lies between."""
     checks = {c.file: c for c in assignment.checks if isinstance(c, ArtefactCheck)}
     database, picture = checks[_DATABASE], checks[_PICTURE]
     assert picture.resolution is not None
     width, height = picture.resolution
-    pool = [Version("00/nothing", {}, score=0.0)]
-    for number in range(1, count):
-        right = rng.random() < 0.8
+    pool: list[Version] = []
+    for number in range(count):
+        right = number == 0 or rng.random() < 0.8
         files = {_PICTURE: _picture((width + (not right), height), number)}
         score = picture.points if right else 0.0
-        if rng.random() < 0.8:
+        if number == 0 or rng.random() < 0.8:
             files[_DATABASE] = _commands(sources, number)
             score += database.points
         words = "a picture" if right else "a picture of a wrong size"
         pool.append(Version(f"00/{words} {number}", files, score=score))
+    pool[1:2] = [Version("00/nothing", {}, score=0.0)] if count > 1 else []
     return pool
 
 

@@ -79,7 +79,7 @@ def _column(
     course: Course, assignment: Assignment, count: int, rng: random.Random
 ) -> list[Version]:
     """What each student hands in for one assignment."""
-    different = max(2, round(DISTINCT * count))
+    different = max(1, round(DISTINCT * count))
     if assignment.sources:
         pool = versions_of(course.root, assignment, different, rng)
     else:
@@ -90,6 +90,6 @@ def _column(
 
 
 def _copied(pool: Sequence[Version], rng: random.Random) -> Version:
-    if rng.random() < _STUBS:
-        return pool[0]
-    return pool[1] if rng.random() < 0.5 else rng.choice(pool)
+    if len(pool) > 1 and rng.random() < _STUBS:
+        return pool[1]
+    return pool[0] if rng.random() < 0.5 else rng.choice(pool)

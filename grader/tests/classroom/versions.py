@@ -21,6 +21,9 @@ from raybook_grader.museum import Exhibit, exhibits_of, twins_of
 _AS_THEY_STAND = 0.6
 """Of the versions that run, so many are exhibits as they stand, the rest are reworded ones."""
 
+_RIGHT = 0.7
+"""Of the reworded ones, so many are right: most students get there in the end."""
+
 
 @dataclass(frozen=True)
 class Version:
@@ -35,14 +38,14 @@ class Version:
 def versions_of(
     root: Path, assignment: Assignment, count: int, rng: random.Random
 ) -> list[Version]:
-    """``count`` different versions of a module; first the stub and the reference."""
-    known = _known(root, assignment, rng)
-    reference = known[0]
-    pool = [_stub(root, assignment), _as_it_stands(reference), _broken(reference)][:count]
-    chosen = known[1 : 1 + max(0, round(_AS_THEY_STAND * (count - len(pool))))]
+    """``count`` different versions of a module; first the reference and the stub."""
+    reference, *others = _known(root, assignment, rng)
+    pool = [_as_it_stands(reference), _stub(root, assignment), _broken(reference)][:count]
+    chosen = others[: round(_AS_THEY_STAND * (count - len(pool)))]
     pool += map(_as_it_stands, chosen)
+    right = [reference, *(exhibit for exhibit in chosen if exhibit.is_right)]
     for number in range(count - len(pool)):
-        exhibit = rng.choice([reference, *chosen])
+        exhibit = rng.choice(right if rng.random() < _RIGHT else chosen or right)
         files = {path: reword(text, number, rng) for path, text in exhibit.files.items()}
         pool.append(Version(f"{exhibit.name}, reworded {number}", files, exhibit))
     return pool
