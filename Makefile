@@ -123,10 +123,11 @@ mitsuba: ## [ARGS="--spp 4096"] compares our pictures with Mitsuba 3's, in a ven
 	@$(MAKE) -s $(program)
 	@grader/tests/mitsuba/compare.sh --raybook "$(program)" $(ARGS)
 
-judge-table: ## [ARGS="--looks 5"] the verdict on light that is 2 % off, and on noise that is right
+judge-table: ## [ARGS="--looks 5"] the verdict on a small bias, on mere noise, and on half-right work
 	@.setup/setup.sh
 	@$(MAKE) kit
 	@$(python) grader/tests/judge/judge_table.py $(ARGS)
+	@$(python) grader/tests/judge/partial_credit.py
 
 class: ## [N=200] [SEED=1] [A=01,03] grades a made-up class, and compares every score with what it must be
 	@.setup/setup.sh
