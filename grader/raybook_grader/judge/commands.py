@@ -10,8 +10,9 @@ import numpy as np
 from markupsafe import Markup
 
 from ..errors import BadInput
+from ..files import write_bytes
 from .compare import Comparison, compare, summary
-from .exr import UnusableImage, read_exr, write_aside
+from .exr import UnusableImage, read_exr
 from .findings import first_pixel, percent
 from .pixels import CHANNELS, Image
 from .viewer import page_html, viewer_html
@@ -97,7 +98,7 @@ def _write_page(
     )
     content = page.encode("utf-8", "replace")
     try:
-        write_aside(arguments.html, lambda temporary: temporary.write_bytes(content))
+        write_bytes(arguments.html, content)
     except OSError as error:
         raise BadInput(f"{arguments.html}: cannot be written: {error.strerror}") from None
 

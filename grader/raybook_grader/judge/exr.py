@@ -1,17 +1,15 @@
 """OpenEXR in and out, for files that a stranger may have written.
 
-Everything that is not one plain scan-line part with full-size R, G and B is refused with
-`UnusableImage`; its size is limited before a pixel is decoded. NaN is not an error here: the
+What `exr_rules` does not allow is refused with `UnusableImage`. NaN is not an error here: the
 verdict tells it.
 """
 
 import io
 import os
 import stat
-import struct
 import tempfile
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,24 +18,25 @@ from typing import Any
 import numpy as np
 import OpenEXR
 
-from ..errors import BadInput
+from ..files import write_bytes
+from .exr_rules import (
+    DAMAGED_HEADER,
+    DAMAGED_PIXELS,
+    MAX_PIXELS,
+    UnusableImage,
+    Window,
+    check_channels,
+    check_version,
+    checked_size,
+    with_complaint,
+)
 from .pixels import Image
 
-MAX_PIXELS = 1 << 24  # 4096 x 4096: twice a 4K frame
-MAX_SAMPLES = 1 << 26  # pixels times channels: 256 MiB decoded
+__all__ = ["ExrImage", "UnusableImage", "decode_exr", "encode_exr", "read_exr", "write_exr"]
+
 MAX_FILE_BYTES = 1 << 29  # incompressible 32-bit data of MAX_SAMPLES, twice
 
-_MAGIC = 20000630  # OpenEXR file layout, "Magic number" and "Version field"
-_REFUSED_FLAGS = (
-    (0x200, "it is tiled; write scan lines"),
-    (0x800, "it holds deep data; write flat pixels"),
-    (0x1000, "it has several parts; write one"),
-)
 _stderr_lock = threading.Lock()
-
-
-class UnusableImage(BadInput):
-    """A file or buffer is no picture that can be judged; the text says why."""
 
 
 @dataclass(frozen=True)
@@ -58,11 +57,12 @@ def read_exr(path: str | os.PathLike[str], max_pixels: int = MAX_PIXELS) -> ExrI
 
 def decode_exr(data: bytes, max_pixels: int = MAX_PIXELS) -> ExrImage:
     """Decode a whole EXR file held in memory; raises `UnusableImage`."""
-    _check_version(data)
-    with _opened(data, header_only=True, failure="its header is damaged or cut short") as file:
-        width, height = _checked_size(file.header(), max_pixels)
-        _check_channels(file.header()["channels"], width * height)
-    with _opened(data, header_only=False, failure="it is truncated or damaged") as file:
+    check_version(data)
+    with _opened(data, header_only=True, failure=DAMAGED_HEADER) as file:
+        window, display = (_window(file.header()[n]) for n in ("dataWindow", "displayWindow"))
+        width, height = checked_size(window, display, max_pixels)
+        check_channels(file.header()["channels"], width * height)
+    with _opened(data, header_only=False, failure=DAMAGED_PIXELS) as file:
         channels = file.channels()
         pixels = np.stack([channels[name].pixels for name in "RGB"], axis=-1)
         if pixels.shape != (height, width, 3):
@@ -82,21 +82,12 @@ def encode_exr(pixels: Image, header: Mapping[str, Any] | None = None) -> bytes:
 
 def write_exr(path: str | os.PathLike[str], pixels: Image, **header: Any) -> None:
     """Write `pixels`, complete or not at all; keyword arguments become header attributes."""
-    data = encode_exr(pixels, header)
-    write_aside(Path(path), lambda temporary: temporary.write_bytes(data))
+    write_bytes(Path(path), encode_exr(pixels, header))
 
 
-def write_aside(path: Path, write: Callable[[Path], object]) -> None:
-    """Let `write` fill a temporary neighbour of `path`, then rename it over `path`."""
-    descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    os.close(descriptor)
-    temporary = Path(name)
-    try:
-        write(temporary)
-        temporary.chmod(0o644)
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
+def _window(corners: Any) -> Window:
+    (x0, y0), (x1, y1) = corners
+    return int(x0), int(y0), int(x1), int(y1)
 
 
 def _file_bytes(path: Path) -> bytes:
@@ -114,49 +105,6 @@ def _file_bytes(path: Path) -> bytes:
         return file.read(MAX_FILE_BYTES)
 
 
-def _check_version(data: bytes) -> None:
-    if not data:
-        raise UnusableImage("it is empty, not an OpenEXR picture")
-    if len(data) < 8 or struct.unpack_from("<i", data)[0] != _MAGIC:
-        raise UnusableImage("it is not an OpenEXR picture")
-    flags = struct.unpack_from("<I", data, 4)[0]
-    for flag, reason in _REFUSED_FLAGS:
-        if flags & flag:
-            raise UnusableImage(reason)
-
-
-def _checked_size(header: Mapping[str, Any], max_pixels: int) -> tuple[int, int]:
-    window, display = (_box(header[name]) for name in ("dataWindow", "displayWindow"))
-    width, height = window[2] - window[0] + 1, window[3] - window[1] + 1
-    if width < 1 or height < 1:
-        raise UnusableImage(f"its data window {window} is empty")
-    if width * height > max_pixels:
-        raise UnusableImage(
-            f"its data window claims {width} x {height} pixels; at most {max_pixels} are read"
-        )
-    if window != display:
-        raise UnusableImage(f"its data window {window} is not its display window {display}")
-    return width, height
-
-
-def _box(corners: Any) -> tuple[int, int, int, int]:
-    (x0, y0), (x1, y1) = corners
-    return int(x0), int(y0), int(x1), int(y1)
-
-
-def _check_channels(channels: Any, pixels: int) -> None:
-    by_name = {channel.name: channel for channel in channels}
-    missing = [name for name in "RGB" if name not in by_name]
-    if missing:
-        found = ", ".join(sorted(by_name)[:8]) or "none"
-        raise UnusableImage(f"it has no channel {', '.join(missing)} (found: {found})")
-    if len(by_name) * pixels > MAX_SAMPLES:
-        raise UnusableImage(f"it has {len(by_name)} channels: too many for its size")
-    for channel in by_name.values():
-        if (channel.xSampling, channel.ySampling) != (1, 1):
-            raise UnusableImage(f"its channel {channel.name!r} is subsampled")
-
-
 @contextmanager
 def _opened(data: bytes, *, header_only: bool, failure: str) -> Iterator[Any]:
     """The file, opened; its library's complaints become the text of `UnusableImage`."""
@@ -169,14 +117,9 @@ def _opened(data: bytes, *, header_only: bool, failure: str) -> Iterator[Any]:
         except (RuntimeError, ValueError, TypeError, MemoryError):
             readable = False
     if not readable:
-        raise UnusableImage(failure + _first_words(complaints))
+        said = " ".join(complaints).replace("<python_buffer>: ", "")
+        raise UnusableImage(with_complaint(failure, said))
     yield file
-
-
-def _first_words(complaints: list[str]) -> str:
-    words = " ".join(complaints).replace("<python_buffer>: ", "").splitlines()
-    printable = "".join(c for c in words[0] if c.isprintable())[:160] if words else ""
-    return f" ({printable})" if printable else ""
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 """What the judge keeps of a reference: many seeds of one scene, reduced to a few arrays."""
 
+import io
 import os
 import zipfile
 from collections.abc import Iterable
@@ -10,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import BadInput
-from .exr import write_aside
+from ..files import write_bytes
 from .pixels import Array, Image, Map, luminance
 from .tiles import tile_means
 
@@ -48,11 +49,9 @@ class ReferenceStatistics:
         for name in ("mean", "pixel_variance", "channel_mean", "channel_variance", "chunks", "spp"):
             arrays[name] = np.asarray(getattr(self, name))
 
-        def write(temporary: Path) -> None:
-            with temporary.open("wb") as file:
-                np.savez_compressed(file, version=np.int64(VERSION), **arrays)
-
-        write_aside(Path(path), write)
+        file = io.BytesIO()
+        np.savez_compressed(file, version=np.int64(VERSION), **arrays)
+        write_bytes(Path(path), file.getvalue())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> "ReferenceStatistics":

@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from raybook_grader.judge.exr import write_aside, write_exr
+from raybook_grader.files import write_bytes
+from raybook_grader.judge.exr import write_exr
 
 
 def sky(width: int = 64, height: int = 32) -> NDArray[np.float32]:
@@ -47,7 +48,7 @@ def write_png(path: Path, pixels: NDArray[np.uint8]) -> None:
     header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
     parts = (chunk(b"IHDR", header), chunk(b"IDAT", zlib.compress(rows)), chunk(b"IEND", b""))
     data = b"\x89PNG\r\n\x1a\n" + b"".join(parts)
-    write_aside(path, lambda temporary: temporary.write_bytes(data))
+    write_bytes(path, data)
 
 
 def make_images(folder: Path) -> None:
