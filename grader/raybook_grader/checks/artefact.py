@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from ..course import ArtefactCheck
 from .artefacts import compile_commands_faults, picture_faults
 from .decode import Undecodable, decode
+from .program import Workshop
 from .result import CheckResult, Status, conclude
 
 _SHOWN = 3
 
 
 def check_artefact(
-    check: ArtefactCheck, content: bytes | None, sources: Sequence[str]
+    check: ArtefactCheck, content: bytes | None, workshop: Workshop
 ) -> CheckResult:
-    """Passed if the file is there and right. ``sources`` are all files that students write."""
+    """Passed if the file is there and right."""
     if content is None:
         message = f"{check.file} is not in the submission"
         return conclude(check, Status.FAILED, message, fingerprint="not there")
-    faults = _faults(check, content, sources)
+    faults = _faults(check, content, workshop)
     if not faults:
         return conclude(check, Status.PASSED, f"{check.file} is right")
     return conclude(
@@ -31,12 +30,12 @@ def check_artefact(
     )
 
 
-def _faults(check: ArtefactCheck, content: bytes, sources: Sequence[str]) -> list[str]:
+def _faults(check: ArtefactCheck, content: bytes, workshop: Workshop) -> list[str]:
     if check.resolution is None:
-        return compile_commands_faults(content, sources)
+        return compile_commands_faults(content, workshop.course.sources)
     width, height = check.resolution
     try:
-        [pixels] = decode([content], max_pixels=4 * width * height)
+        [pixels] = decode(workshop, [content], max_pixels=4 * width * height)
     except Undecodable as reason:
         return [f"it cannot be read: {reason}"]
     return picture_faults(pixels, check.resolution)

@@ -1,84 +1,151 @@
-"""Decoding pictures that a student's program wrote, in a child process with limits.
+"""Decoding pictures that a student's program wrote: in a box of its own, by a small program.
 
-An image library that a crafted file breaks then breaks nothing else. Run as a program, this
-module reads files from its standard input and writes their pixels to its standard output.
+A file that breaks the image library breaks nothing but its own decoding. All of a student's
+pictures at hand share one box. What comes out of it is taken for numbers of a checked count and
+nothing else; whether they make a picture is said here, by the rules that hold everywhere.
 """
 
 from __future__ import annotations
 
-import resource
 import struct
-import subprocess
-import sys
 from collections.abc import Sequence
-from typing import BinaryIO
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
 
 import numpy as np
 
-from ..judge.exr import UnusableImage, decode_exr
+from ..judge.exr_rules import (
+    DAMAGED_HEADER,
+    DAMAGED_PIXELS,
+    MAX_SAMPLES,
+    UnusableImage,
+    check_channels,
+    check_version,
+    checked_size,
+    with_complaint,
+)
 from ..judge.pixels import Image
-from .program import HarnessFault
+from ..sandbox import BoxResult, Limits
+from .program import HarnessFault, Workshop
 
+_SOURCE = Path(__file__).parent / "decoder" / "decode_exr.c"
 _SECONDS = 60
-_MEMORY = 4 << 30
-_HEADER = struct.Struct("<cQII")
-"""What follows, "i" for an image or "u" for a reason; its bytes; height and width."""
+_MEMORY = 2 << 30
+_MOST_CHANNELS = 1024
+_HEADER_BYTES = 1 << 16
+_BROKEN = "the picture breaks the decoder"
 
 
 class Undecodable(Exception):
     """A file is no picture; the text says why."""
 
 
-def decode(files: Sequence[bytes], max_pixels: int) -> list[Image]:
+class _Status(IntEnum):
+    """As in decoder/decode_exr.c."""
+
+    NO_HEADER = 0
+    HEADER = 1
+    COMPRESSION = 2
+    NO_PIXELS = 3
+    PIXELS = 4
+
+
+@dataclass(frozen=True)
+class _Channel:
+    name: str
+    xSampling: int
+    ySampling: int
+
+
+def decode(workshop: Workshop, files: Sequence[bytes], max_pixels: int) -> list[Image]:
     """The pixels of each file; raises `Undecodable` for the first that has none."""
-    stdin = b"".join(struct.pack("<Q", len(file)) + file for file in files)
     try:
-        child = subprocess.run(
-            [sys.executable, "-I", "-m", __name__, str(max_pixels)],
-            input=stdin,
-            capture_output=True,
-            timeout=2 * _SECONDS,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        raise Undecodable("the picture takes too long to decode") from None
-    if child.returncode < 0:
-        raise Undecodable("the picture breaks the decoder")
-    if child.returncode != 0:
-        raise HarnessFault(f"the decoder failed:\n{child.stderr.decode('utf-8', 'replace')}")
-    return _parse(child.stdout, len(files))
-
-
-def _parse(output: bytes, count: int) -> list[Image]:
-    images: list[Image] = []
-    place = 0
-    for _ in range(count):
-        kind, size, height, width = _HEADER.unpack_from(output, place)
-        place += _HEADER.size
-        content = output[place : place + size]
-        place += size
-        if kind == b"u":
-            raise Undecodable(content.decode("utf-8", "replace"))
-        images.append(np.frombuffer(content, np.float32).reshape(height, width, 3))
+        for file in files:
+            check_version(file)
+        output = _Reader(_run(workshop, files, max_pixels))
+        images = [_image(output, max_pixels) for _ in files]
+        output.end()
+    except UnusableImage as reason:
+        raise Undecodable(str(reason)) from None
     return images
 
 
-def _serve(source: BinaryIO, sink: BinaryIO, max_pixels: int) -> None:
-    resource.setrlimit(resource.RLIMIT_CPU, (_SECONDS, _SECONDS))
-    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    while length := source.read(8):
-        file = source.read(struct.unpack("<Q", length)[0])
-        try:
-            pixels = decode_exr(file, max_pixels).pixels
-        except UnusableImage as reason:
-            content = str(reason).encode("utf-8", "replace")
-            sink.write(_HEADER.pack(b"u", len(content), 0, 0) + content)
-        else:
-            content = pixels.tobytes()
-            sink.write(_HEADER.pack(b"i", len(content), *pixels.shape[:2]) + content)
-    sink.flush()
+def _run(workshop: Workshop, files: Sequence[bytes], max_pixels: int) -> bytes:
+    largest = len(files) * (12 * max_pixels + _HEADER_BYTES)
+    result = workshop.box.run(
+        ["/decode", "pictures", "results", str(max_pixels), str(MAX_SAMPLES)],
+        inputs={
+            "/decode": workshop.tool(_SOURCE),
+            "pictures": b"".join(struct.pack("=Q", len(file)) + file for file in files),
+        },
+        collect=["results"],
+        limits=Limits(
+            wall_seconds=2 * _SECONDS,
+            cpu_seconds=_SECONDS,
+            memory_bytes=_MEMORY,
+            file_bytes=largest,
+            scratch_bytes=largest + (1 << 20),
+        ),
+    )
+    if result.ok and "results" in result.files:
+        return result.files["results"]
+    raise _failure(result)
 
 
-if __name__ == "__main__":
-    _serve(sys.stdin.buffer, sys.stdout.buffer, int(sys.argv[1]))
+def _failure(result: BoxResult) -> Exception:
+    if result.outcome == "timeout":
+        return UnusableImage("the picture takes too long to decode")
+    if result.outcome in ("signaled", "memory"):
+        return UnusableImage(_BROKEN)
+    return HarnessFault(f"the decoder {result.describe()}")
+
+
+class _Reader:
+    """Numbers and texts out of the box; whatever does not add up is the picture's doing."""
+
+    def __init__(self, data: bytes) -> None:
+        self._data = data
+        self._at = 0
+
+    def take(self, size: int) -> bytes:
+        piece = self._data[self._at : self._at + size]
+        if size < 0 or len(piece) != size:
+            raise UnusableImage(_BROKEN)
+        self._at += size
+        return piece
+
+    def number(self) -> int:
+        return int(struct.unpack("=i", self.take(4))[0])
+
+    def text(self) -> str:
+        return self.take(self.number()).decode("utf-8", "replace")
+
+    def window(self) -> tuple[int, int, int, int]:
+        return self.number(), self.number(), self.number(), self.number()
+
+    def channels(self) -> list[_Channel]:
+        count = self.number()
+        if count > _MOST_CHANNELS:
+            raise UnusableImage(f"it has {count} channels: too many for its size")
+        sampled = [(self.number(), self.number(), self.text()) for _ in range(count)]
+        return [_Channel(name, x, y) for x, y, name in sampled]
+
+    def end(self) -> None:
+        if self._at != len(self._data):
+            raise UnusableImage(_BROKEN)
+
+
+def _image(output: _Reader, max_pixels: int) -> Image:
+    status, complaint = output.number(), output.text()
+    if status == _Status.NO_HEADER:
+        raise UnusableImage(with_complaint(DAMAGED_HEADER, complaint))
+    window, display, channels = output.window(), output.window(), output.channels()
+    width, height = checked_size(window, display, max_pixels)
+    check_channels(channels, width * height)
+    if status == _Status.COMPRESSION:
+        raise UnusableImage("its compression is DWAA or DWAB; write ZIP")
+    if status != _Status.PIXELS:
+        raise UnusableImage(with_complaint(DAMAGED_PIXELS, complaint))
+    pixels = np.frombuffer(output.take(12 * width * height), np.float32)
+    return pixels.reshape(height, width, 3)

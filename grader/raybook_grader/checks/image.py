@@ -59,7 +59,7 @@ def check_image(check: ImageCheck, subject: Subject, references: References) -> 
 def _render(subject: Subject, picture: Picture, seeds: Sequence[int]) -> list[Image]:
     files = [_render_one(subject, picture, seed) for seed in seeds]
     try:
-        return decode(files, max_pixels=4 * picture.pixels)
+        return decode(subject.workshop, files, max_pixels=4 * picture.pixels)
     except Undecodable as reason:
         raise Stopped(_no(f"the picture cannot be read: {reason}", "unreadable picture")) from None
 

@@ -61,6 +61,7 @@ class Workshop:
         self.kit = kit
         self.box = box
         self._trusted = cache(self._compile_trusted)
+        self.tool = cache(self._tool)
 
     def compile_module(self, assignment: Assignment, files: Mapping[str, bytes]) -> ModuleObjects:
         """Compile a module's files; raises `BuildFailure`."""
@@ -79,6 +80,10 @@ class Workshop:
         watched = self._compile(module.files, SANITIZE)
         driver = self._trusted(source, SANITIZE)
         return self._link(watched, {"driver.o": driver}, with_main=False, flags=SANITIZE)
+
+    def _tool(self, source: Path) -> bytes:
+        """A trusted program of one file, built once a process, that no student's code is in."""
+        return self.driver(None, source)
 
     def unit_tests(self, module: ModuleObjects, source: Path) -> bytes:
         """A file of Unity tests linked with a student's module."""

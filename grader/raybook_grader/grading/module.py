@@ -75,9 +75,8 @@ class ModuleGrader:
         self, assignment: Assignment, files: Mapping[str, SubmittedFile]
     ) -> ModuleResult:
         contents = {path: file.content for path, file in files.items()}
-        sources = self.workshop.course.sources
         checks = [check for check in assignment.checks if isinstance(check, ArtefactCheck)]
-        return from_checks([check_artefact(c, contents.get(c.file), sources) for c in checks])
+        return from_checks([check_artefact(c, contents.get(c.file), self.workshop) for c in checks])
 
     def _judge(self, assignment: Assignment, contents: Mapping[str, bytes]) -> ModuleResult:
         try:

@@ -6,18 +6,15 @@ import json
 import time
 from pathlib import Path
 
-import numpy as np
 import pytest
 from make_class import CHECKOUT, OWNED, solution
 
-from raybook_grader.checks.decode import Undecodable, decode
 from raybook_grader.checks.program import HarnessFault
 from raybook_grader.checks.result import Status
 from raybook_grader.checks.scene import scene_files, scene_fingerprint
 from raybook_grader.checks.stub import is_stub, stub_text
 from raybook_grader.checks.trouble import trouble
 from raybook_grader.checks.words import clean
-from raybook_grader.judge.exr import encode_exr
 from raybook_grader.sandbox import BoxResult
 
 
@@ -49,23 +46,6 @@ def test_words_are_cleaned() -> None:
     assert clean(hostile) == "red a\ufffdb\ufffd\ufffdc\nnext    tab"
     assert len(clean(b"x" * 10_000_000)) < 1000
     assert clean(b"line\n" * 1000).count("\n") <= 60
-
-
-def test_pictures_are_decoded_elsewhere() -> None:
-    pixels = np.random.default_rng(1).random((4, 6, 3), np.float32)
-    first, second = decode([encode_exr(pixels), encode_exr(2 * pixels)], max_pixels=100)
-    assert np.array_equal(first, pixels) and np.array_equal(second, 2 * pixels)
-
-
-@pytest.mark.parametrize("content", [b"", b"no picture", b"v/1\x01" + bytes(64)])
-def test_what_is_no_picture_is_told(content: bytes) -> None:
-    with pytest.raises(Undecodable):
-        decode([content], max_pixels=100)
-
-
-def test_a_large_picture_is_refused() -> None:
-    with pytest.raises(Undecodable, match="at most 100"):
-        decode([encode_exr(np.zeros((40, 40, 3), np.float32))], max_pixels=100)
 
 
 @pytest.mark.parametrize(
