@@ -13,11 +13,12 @@ from ..course import RobustCheck
 from ..sandbox import BoxResult, Limits
 from .oracles import cases_of
 from .result import JUDGED, CheckResult, Status, conclude
-from .sanitizers import ENVIRONMENT, Finding, finding
+from .sanitizers import ENVIRONMENT, Finding, evasions, finding
 from .subject import Stopped, Subject
 
 _SLOWER = 5
 """How many times the time a run may take: two or three are usual."""
+_SHOWN = 3
 _LARGER = 3
 """How many times the memory: red zones round each block, the shadow, what was freed."""
 
@@ -29,6 +30,14 @@ def check_robust(check: RobustCheck, subject: Subject) -> CheckResult:
     """
     folder = subject.assignment.folder
     cases = cases_of(folder / check.oracle, check.group, check.seed)
+    if hidden := evasions(subject.workshop.preprocessed(subject.module)):
+        return conclude(
+            check,
+            Status.FAILED,
+            "the module hides from the sanitizers, or asks whether they watch",
+            cases=tuple(hidden[:_SHOWN]),
+            fingerprint="hides from the sanitizers",
+        )
     program = subject.sanitized_driver(folder / check.driver)
     try:
         result = subject.run(
@@ -40,7 +49,7 @@ def check_robust(check: RobustCheck, subject: Subject) -> CheckResult:
             env=ENVIRONMENT,
         )
     except Stopped as stop:
-        if found := finding(stop.said, subject.module.owned):
+        if found := finding(stop.said, subject.module.files):
             return _tell(check, found, subject)
         raise
     if found := _report(result, subject):
@@ -83,7 +92,7 @@ def _limits(subject: Subject) -> Limits:
 
 def _report(result: BoxResult, subject: Subject) -> Finding | None:
     """A report ends the program: without that, such words are the program's own."""
-    return None if result.ok else finding(result.stderr, subject.module.owned)
+    return None if result.ok else finding(result.stderr, subject.module.files)
 
 
 def _tell(check: RobustCheck, found: Finding, subject: Subject) -> CheckResult:

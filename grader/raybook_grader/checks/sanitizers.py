@@ -7,17 +7,19 @@ anybody's guess: it may well print the right answer, today. The sanitizers stop 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Mapping
 from dataclasses import dataclass
 
+from .sanitizer_words import known_words
 from .words import clean
 
 FLAGS = ("-O1", "-g", "-fsanitize=address,undefined,float-cast-overflow",
-         "-fno-sanitize-recover=all")  # fmt: skip
+         "-fno-sanitize-recover=all", "-U__SANITIZE_ADDRESS__")  # fmt: skip
 """For the compiler, after its other flags; for the linker, all but the level do no harm.
 
 `-fsanitize=undefined` leaves out the conversion of a NaN or of 1e30 to an int, which is as
-undefined as the rest. A division of floats by zero is not: it is infinite.
+undefined as the rest. A division of floats by zero is not: it is infinite. The macro would tell a
+module when it is watched.
 """
 
 ENVIRONMENT = {
@@ -29,10 +31,16 @@ ENVIRONMENT = {
 """For the program."""
 
 _ADDRESS_ERROR = re.compile(r"^==\d+==ERROR: AddressSanitizer: ([\w-]+)(.*)$", re.MULTILINE)
-_ACCESS = re.compile(r"^(READ|WRITE) of size (\d+)", re.MULTILINE)
+_ACCESS = re.compile(r"^(READ|WRITE) of size (\d{1,9})\b", re.MULTILINE)
 _UNDEFINED = re.compile(r"^\S+?:\d+:(?:\d+:)? runtime error: (.*)$", re.MULTILINE)
-_PLACE = re.compile(r"(?:^|[\s/])(src/[\w./-]+\.[ch]):(\d+)")
+_PLACE = re.compile(r"(?:^|[\s/])(src/[\w./-]+\.[ch]):(\d{1,7})\b")
 _POINTER = re.compile(r"\b0x[0-9a-f]+")
+
+_EVASION = re.compile(
+    r"\b\w*(?:no_sanitize|no_address_safety|disable_sanitizer|address_sanitizer"
+    r"|(?:asan|ubsan|lsan|sanitizer)_)\w*"
+)
+"""Names by which code hides from the sanitizers or finds out that they watch."""
 
 _PLAIN = {
     "heap-buffer-overflow": "goes beyond the end of memory from malloc",
@@ -51,6 +59,12 @@ _PLAIN = {
 }
 """AddressSanitizer's names in words that need no manual."""
 
+_OTHER_ERRORS = (
+    "ABRT", "BUS", "ILL", "allocation-size-too-big", "bad-free", "calloc-overflow",
+    "container-overflow", "memcpy-param-overlap", "negative-size-param", "out-of-memory",
+    "stack-buffer-underflow", "strcpy-param-overlap", "unknown-crash", "use-after-poison",
+)  # fmt: skip
+
 
 @dataclass(frozen=True)
 class Finding:
@@ -65,24 +79,33 @@ class Finding:
     line: int = 0
 
 
-def finding(said: bytes, owned: Collection[str]) -> Finding | None:
+def evasions(text: bytes) -> list[str]:
+    """The names in preprocessed C by which a module would escape the sanitizers' eyes."""
+    return sorted({name[:60] for name in _EVASION.findall(text.decode("utf-8", "replace"))})
+
+
+def finding(said: bytes, files: Mapping[str, bytes]) -> Finding | None:
     """The first report in what a program said, if there is one.
 
-    ``owned`` are the module's files, as they are called in a submission: "src/accel/bvh.c".
+    ``files`` are the module's, as they are called in a submission: "src/accel/bvh.c". The program
+    may have printed a report of its own making, in which it quotes what is none of its student's
+    business: so only the sanitizers' own words, numbers and what stands in the files are kept.
     """
     text = clean(said, lines=400)
     address, undefined = _ADDRESS_ERROR.search(text), _UNDEFINED.search(text)
     if undefined and not (address and address.start() < undefined.start()):
-        what = _POINTER.sub("...", undefined[1]).strip()
-        return _placed(_kind(what), what, text[undefined.start() :], owned)
+        what = known_words(_POINTER.sub("...", undefined[1]).strip(), files.values())
+        return _placed(_kind(what), what, text[undefined.start() :], files)
     if address:
-        return _placed(*_address_error(address, text), text[address.start() :], owned)
+        return _placed(*_address_error(address, text), text[address.start() :], files)
     return None
 
 
 def _address_error(report: re.Match[str], text: str) -> tuple[str, str]:
     """The kind of an error with an address, and the words for it."""
     kind, rest = report[1], report[2]
+    if kind not in _PLAIN and kind not in _OTHER_ERRORS:
+        kind = "unknown-crash"
     if kind == "attempting" and "double-free" in rest:
         return "double-free", "double-free: frees the same memory twice"
     plain = _PLAIN.get(kind, "uses memory that is not its own")
@@ -100,9 +123,9 @@ def _kind(undefined: str) -> str:
     return re.sub(r"\s+", " ", re.sub(r"-?\b\d[\w.+-]*", "...", head)).strip()
 
 
-def _placed(kind: str, what: str, report: str, owned: Collection[str]) -> Finding:
+def _placed(kind: str, what: str, report: str, files: Mapping[str, bytes]) -> Finding:
     """The innermost place in the module: what it calls is inlined, or was given bad values."""
     for path, line in _PLACE.findall(report):
-        if path in owned:
+        if path in files and 0 < int(line) <= files[path].count(b"\n") + 1:
             return Finding(kind, f"{path}, line {line}: {what}", path, int(line))
     return Finding(kind, f"in what the module calls, or with what it returned: {what}")
