@@ -11,9 +11,7 @@ from .result import CheckResult, Status, conclude
 _SHOWN = 3
 
 
-def check_artefact(
-    check: ArtefactCheck, content: bytes | None, workshop: Workshop
-) -> CheckResult:
+def check_artefact(check: ArtefactCheck, content: bytes | None, workshop: Workshop) -> CheckResult:
     """Passed if the file is there and right."""
     if content is None:
         message = f"{check.file} is not in the submission"

@@ -23,6 +23,12 @@ _OBJECTS = "/kit/objects"
 _DRIVER = Path(__file__).resolve().parent / "driver"
 """What all drivers share: probe.h."""
 _MAIN = "objects/main.o"
+# Sections by which an object tells the linker what to do or to load.
+_NO_ORDERS = (
+    "--remove-section=.gnu.lto_*",
+    "--remove-section=.deplibs",
+    "--remove-section=.linker-options",
+)
 # gcc and ld take well under a second; a macro bomb takes for ever.
 _BUILD_LIMITS = Limits(wall_seconds=60, cpu_seconds=20, memory_bytes=1 << 30)
 
@@ -85,6 +91,16 @@ class Workshop:
         """A trusted program of one file, built once a process, that no student's code is in."""
         return self.driver(None, source)
 
+    def preprocessed(self, module: ModuleObjects) -> bytes:
+        """A module's texts as the compiler reads them when it compiles for the sanitizers."""
+        texts = []
+        for path, content in sorted(module.files.items()):
+            done = self._run_compiler(path, content, [*SANITIZE, "-w", "-E", "-P"], "text.i")
+            if not done.ok or "text.i" not in done.files:
+                raise HarnessFault(f"{path} compiled, but is not preprocessed: {done.describe()}")
+            texts.append(done.files["text.i"])
+        return b"\n".join(texts)
+
     def unit_tests(self, module: ModuleObjects, source: Path) -> bytes:
         """A file of Unity tests linked with a student's module."""
         unity = self._unity
@@ -111,25 +127,31 @@ class Workshop:
     def _compile_student(
         self, path: str, content: bytes, name: str, flags: Sequence[str]
     ) -> tuple[bytes, str]:
-        beside = f"{_INCLUDE}/{PurePosixPath(path).parent.relative_to('src')}"
-        compiled = self.box.run(
-            [self.kit.cc, *self.kit.cflags, *flags, "-Wno-error", "-fmax-errors=20",
-             "-fdiagnostics-color=never", "-I", _INCLUDE, "-iquote", beside,
-             "-c", f"./{path}", "-o", "raw.o"],
-            binds={_INCLUDE: self.kit.include},
-            inputs={path: content},
-            collect=["raw.o"],
-            limits=_BUILD_LIMITS,
-        )  # fmt: skip
+        compiled = self._run_compiler(path, content, [*flags, "-c"], "raw.o")
         words = clean(compiled.stderr).replace("./src/", "src/")
         if not compiled.ok or "raw.o" not in compiled.files:
             raise BuildFailure(f"{path} does not compile{_because(compiled)}", words)
         return self._make_local(path, compiled.files["raw.o"], name), words
 
+    def _run_compiler(
+        self, path: str, content: bytes, flags: Sequence[str], output: str
+    ) -> BoxResult:
+        """The compiler on one of a student's files, with the public headers in reach."""
+        beside = f"{_INCLUDE}/{PurePosixPath(path).parent.relative_to('src')}"
+        return self.box.run(
+            [self.kit.cc, *self.kit.cflags, "-Wno-error", "-fmax-errors=20",
+             "-fdiagnostics-color=never", "-I", _INCLUDE, "-iquote", beside,
+             *flags, f"./{path}", "-o", output],
+            binds={_INCLUDE: self.kit.include},
+            inputs={path: content},
+            collect=[output],
+            limits=_BUILD_LIMITS,
+        )  # fmt: skip
+
     def _make_local(self, path: str, raw: bytes, name: str) -> bytes:
         keep = [f"--keep-global-symbol={symbol}" for symbol in self.kit.modules[path].symbols]
         done = self.box.run(
-            [self.kit.objcopy, *keep, "raw.o", name],
+            [self.kit.objcopy, *keep, *_NO_ORDERS, "raw.o", name],
             inputs={"raw.o": raw},
             collect=[name],
             limits=_BUILD_LIMITS,
@@ -159,12 +181,14 @@ class Workshop:
         flags: Sequence[str] = (),
     ) -> bytes:  # fmt: skip
         own = module.objects if module else {}
+        # What the reference has in the module's place is not even there to be found.
+        replaced = [self.kit.modules[path].object for path in (module.owned if module else ())]
         linked = self.box.run(
             [self.kit.cc, *self.kit.ldflags, *flags, "-o", "program", *own, *extra,
              *(f"/kit/{name}" for name in self._linked_with(module, with_main)),
              *self.kit.ldlibs],
             binds={_OBJECTS: self.kit.folder / "objects"},
-            inputs={**own, **extra},
+            inputs={**own, **extra, **{f"/kit/{name}": b"" for name in replaced}},
             collect=["program"],
             limits=_BUILD_LIMITS,
         )  # fmt: skip

@@ -27,6 +27,9 @@ UNPACKED_LIMIT = 256 << 20
 MEMBER_LIMIT = 20_000
 """How many members an archive may list."""
 
+_LISTED = b"PK\x01\x02"
+"""Begins a member's entry in a zip's list (.ZIP File Format Specification, section 4.3.12)."""
+
 SUFFIXES = (".zip", ".tar.gz", ".tgz")
 
 
@@ -82,6 +85,9 @@ class _Found:
 
 
 def _read_zip(file: Path, found: _Found) -> None:
+    # The library reads the list of members at once, however long it is.
+    if file.read_bytes().count(_LISTED) > MEMBER_LIMIT:
+        raise Unusable(f"the archive lists more than {MEMBER_LIMIT} members")
     with zipfile.ZipFile(file) as archive:
         for member in archive.infolist():
             # Some Windows tools store backslashes, against the format's rules.

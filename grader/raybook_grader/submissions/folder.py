@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 from collections.abc import Collection
@@ -46,13 +47,23 @@ def _read(base: Path, path: str) -> SubmittedFile | None:
     return SubmittedFile(content)
 
 
+def _step_into(folder: str, here: int) -> int:
+    try:
+        return os.open(folder, _NO_LINK | os.O_DIRECTORY, dir_fd=here)
+    except NotADirectoryError:
+        # What Linux says of a link, too, when asked for a folder.
+        if stat.S_ISLNK(os.lstat(folder, dir_fd=here).st_mode):
+            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP)) from None
+        raise
+
+
 def _open(base: Path, path: str) -> int:
     """A descriptor of base/path, with no link on the way from ``base`` on."""
     *folders, name = path.split("/")
     here = os.open(base, _NO_LINK | os.O_DIRECTORY)
     try:
         for folder in folders:
-            below = os.open(folder, _NO_LINK | os.O_DIRECTORY, dir_fd=here)
+            below = _step_into(folder, here)
             os.close(here)
             here = below
         return os.open(name, _NO_LINK, dir_fd=here)

@@ -44,7 +44,7 @@ def encoded(
     return buffer.getvalue()
 
 
-def planes(pixels: Image, kind: type = np.float32) -> dict[str, Any]:
+def planes(pixels: Any, kind: type = np.float32) -> dict[str, Any]:
     return {c: np.ascontiguousarray(pixels[..., i]).astype(kind) for i, c in enumerate("RGB")}
 
 
