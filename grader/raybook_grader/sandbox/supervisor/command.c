@@ -96,7 +96,7 @@ static void become_command(const struct order *order, int error_fd)
     reset_signals();
     setsid();
     offer_to_oom_killer();
-    if (keep_standard_descriptors(error_fd) && set_limits(order)) {
+    if (keep_standard_descriptors(error_fd) && set_limits(order) && wall_in()) {
         execvp(order->command[0], order->command);
     }
     const int error = errno;

@@ -57,6 +57,12 @@ bool read_order(int argc, char **argv, struct order *order);
  */
 pid_t start_command(const struct order *order);
 
+/*
+ * Keeps this process and its children, for ever, from writing elsewhere than
+ * in the scratch folders, by Landlock. True where the kernel has no Landlock.
+ */
+bool wall_in(void);
+
 /* Waits until the command ends or goes too far. Kills nothing. */
 struct outcome watch_command(const struct order *order, pid_t command);
 
