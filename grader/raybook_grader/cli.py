@@ -16,6 +16,7 @@ from .judge import commands as judge
 from .literate import commands as literate
 from .museum import commands as museum
 from .sandbox import SandboxUnavailable
+from .sandbox import commands as sandbox
 
 
 def parser() -> argparse.ArgumentParser:
@@ -25,7 +26,7 @@ def parser() -> argparse.ArgumentParser:
         description="Grades submissions to the Raybook course; makes its student edition.",
     )
     commands = top.add_subparsers(metavar="COMMAND", required=True)
-    for part in (grading, judge, museum, calibration, literate):
+    for part in (grading, judge, museum, calibration, literate, sandbox):
         part.add_commands(commands)
     return top
 

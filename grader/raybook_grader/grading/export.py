@@ -25,10 +25,12 @@ def write_grades(database: Database, folder: Path) -> Path:
 def grades(database: Database) -> dict[str, Any]:
     """All submissions with their modules and checks; ``score`` is null where the harness failed."""
     modules = database.modules()
+    submissions = [_submission(s, modules) for s in database.students()]
     return {
         "version": VERSION,
         "course": database.course(),
-        "submissions": [_submission(s, modules) for s in database.students()],
+        "unsafe": any(module["unsafe"] for s in submissions for module in s["modules"]),
+        "submissions": submissions,
     }
 
 
@@ -56,6 +58,7 @@ def _module(module: Module, result: ModuleResult) -> dict[str, Any]:
         "max_score": module.points,
         "verdict": result.verdict.value,
         "message": result.message,
+        "unsafe": result.unsafe,
         "diagnosis": [diagnosis.to_json() for diagnosis in result.diagnosis],
         "checks": [
             {

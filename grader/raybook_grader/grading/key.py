@@ -31,9 +31,10 @@ def has_a_say(module: PurePath) -> bool:
 class Keys:
     """The keys of one run's work."""
 
-    def __init__(self, course: Course, kit: Kit) -> None:
+    def __init__(self, course: Course, kit: Kit, unsafe: bool = False) -> None:
         self._course = course
         self._kit = kit
+        self._unsafe = unsafe
         self._assignments: dict[str, str] = {}
 
     def key(self, assignment: Assignment, files: Mapping[str, SubmittedFile]) -> str:
@@ -72,6 +73,7 @@ class Keys:
         return _hash([
             self._grader,
             self._kit.fingerprint,
+            *(["unsafe"] if self._unsafe else []),
             *(_content(path, assignment.folder) for path in used),
             *(stub_text(root, path) for path in assignment.sources),
             *([] if assignment.sources else self._course.sources),

@@ -17,7 +17,7 @@ from .key import Keys
 def learn(worker: Worker, numbers: Collection[str], jobs: int, console: Console) -> None:
     """Judge the mistakes of the museum that the diagnosis does not know yet, once."""
     course = load_course(worker.root)
-    keys = Keys(course, load_kit(worker.kit))
+    keys = Keys(course, load_kit(worker.kit), worker.unsafe)
     unknown = {
         assignment.number: keys.known_file(assignment)
         for assignment in course.assignments

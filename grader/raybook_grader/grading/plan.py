@@ -64,7 +64,7 @@ def plan(
     database: Database,
 ) -> list[Job]:
     """Write down what the class consists of; the jobs that are left to do."""
-    keys = Keys(course, load_kit(worker.kit))
+    keys = Keys(course, load_kit(worker.kit), worker.unsafe)
     jobs: dict[str, Job] = {}
     planned: dict[tuple[str, str], str] = {}
     for submission in submissions:

@@ -26,6 +26,8 @@ class ModuleResult:
     traceback: str = ""
     diagnosis: tuple[Diagnosis, ...] = ()
     """Known mistakes that it looks like, the likeliest first."""
+    unsafe: bool = False
+    """Whether the student's code ran without the sandbox's walls: no result to rely on."""
 
     def to_json(self) -> dict[str, Any]:
         return {
@@ -35,6 +37,7 @@ class ModuleResult:
             "checks": [check.to_json() for check in self.checks],
             "traceback": self.traceback,
             "diagnosis": [diagnosis.to_json() for diagnosis in self.diagnosis],
+            "unsafe": self.unsafe,
         }
 
     @classmethod
@@ -47,6 +50,7 @@ class ModuleResult:
             checks=tuple(CheckResult.from_json(check) for check in values["checks"]),
             traceback=values["traceback"],
             diagnosis=tuple(Diagnosis(**diagnosis) for diagnosis in values["diagnosis"]),
+            unsafe=values.get("unsafe", False),
         )
 
     def without_pictures(self) -> ModuleResult:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from rich.console import Console
 
 from ..course import Assignment
@@ -18,9 +20,10 @@ def known_mistakes(
     if not (assignment.folder / "mistakes").is_dir():
         return []
     mistakes = [e for e in exhibits_of(worker.root, assignment, strict=False) if not e.is_right]
-    quick = visit_all(Visitor(worker.root, worker.kit, images=False), mistakes, jobs, console)
+    quickly = Visitor(worker.root, worker.kit, images=False, unsafe=worker.unsafe)
+    quick = visit_all(quickly, mistakes, jobs, console)
     unseen = [e for e in mistakes if not quick[e.name].failed]
-    slow = visit_all(Visitor(worker.root, worker.kit, images=True), unseen, jobs, console)
+    slow = visit_all(replace(quickly, images=True), unseen, jobs, console)
     return [_known(e, quick | slow) for e in mistakes]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -36,6 +37,7 @@ def write_reports(database: Database, folder: Path) -> Path:
             student=student,
             modules=modules,
             totals=totals(student, modules),
+            unsafe=_is_unsafe([student]),
             viewer_assets=viewer_assets() if _has_picture(student) else "",
         )
         write_text(pages / name, page)
@@ -43,15 +45,21 @@ def write_reports(database: Database, folder: Path) -> Path:
     for old in pages.glob("*.html"):
         if old.name not in written:
             old.unlink()
+    unsafe = _is_unsafe(database.students())
     view = class_view(course, modules, database.students())
     index = folder / "index.html"
-    write_text(index, environment.get_template("class.html").render(view=view))
+    write_text(index, environment.get_template("class.html").render(view=view, unsafe=unsafe))
     return index
 
 
 def _has_picture(student: Student) -> bool:
     results = [result for result in student.results.values() if result is not None]
     return any(check.picture for result in results for check in result.checks)
+
+
+def _is_unsafe(students: Iterable[Student]) -> bool:
+    """Whether any result was made without the sandbox."""
+    return any(result and result.unsafe for s in students for result in s.results.values())
 
 
 def _environment() -> Environment:

@@ -7,6 +7,7 @@ from .doctor import Finding, probe, require
 from .errors import BoxError, SandboxUnavailable
 from .limits import Limits
 from .result import BoxResult
+from .unfenced import make_box
 
 __all__ = [
     "Box",
@@ -15,6 +16,7 @@ __all__ = [
     "Finding",
     "Limits",
     "SandboxUnavailable",
+    "make_box",
     "probe",
     "require",
 ]

@@ -37,6 +37,8 @@ class Finding:
     ok: bool
     message: str
     remedy: str = ""
+    needed: bool = True
+    """False for what only helps."""
 
 
 def probe() -> list[Finding]:
