@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import os
 import resource
+import shutil
 import signal
 import stat
 import subprocess
@@ -49,27 +50,35 @@ class UnfencedBox(Box):
         limits = limits or Limits()
         with tempfile.TemporaryDirectory(prefix=_PREFIX, ignore_cleanup_errors=True) as folder:
             scratch = Path(folder)
-            places = _lay_out(scratch, inputs or {})
+            given = {os.path.join("/work", path): data for path, data in (inputs or {}).items()}
+            (scratch / "work").mkdir()
             for path, host in binds.items():
-                target = _made(scratch, path)
-                target.symlink_to(self._mirror.readable(host))
-                places.append(path)
+                self._bind(host, _made(scratch, path), any(g.startswith(f"{path}/") for g in given))
+            _lay_out(scratch, given)
+            places = [*binds, *(path for path in given if not path.startswith("/work/"))]
             words = [_translate(word, places, scratch) for word in command]
             return _run(words, scratch, collect, limits, env or {}, stdin)
 
+    def _bind(self, host: Path, place: Path, has_inputs: bool) -> None:
+        """A link, or a copy of a folder where an input is to lie below it."""
+        readable = self._mirror.readable(host)
+        if has_inputs:
+            shutil.copytree(readable, place)
+        else:
+            place.symlink_to(readable)
 
-def _lay_out(scratch: Path, inputs: Mapping[str, bytes]) -> list[str]:
-    """Writes the inputs; the box paths that commands may name."""
-    (scratch / "work").mkdir()
+
+def _lay_out(scratch: Path, inputs: Mapping[str, bytes]) -> None:
+    """Writes the inputs, and gives the scratch folders to whom the command will run as."""
     for path, data in inputs.items():
-        file = _made(scratch, os.path.join("/work", path))
+        file = _made(scratch, path)
+        file.unlink(missing_ok=True)
         file.write_bytes(data)
         file.chmod(0o555)
     if os.geteuid() == 0:
         with contextlib.suppress(OSError):
             os.chown(scratch, NOBODY, NOBODY)
             os.chown(scratch / "work", NOBODY, NOBODY)
-    return [path for path in inputs if path.startswith("/")]
 
 
 def _made(scratch: Path, path: str) -> Path:
