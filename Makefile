@@ -139,9 +139,14 @@ fuzz: ## [SECONDS=600] searches for files that crash the readers of scenes, mesh
 	@.setup/setup.sh
 	@$(python) grader/tests/fuzz/run.py --seconds $(or $(SECONDS),600) $(ARGS)
 
+hostile: ## [ARGS="--quick"] grades what attacks the grader, case by case: build/hostile/table.md
+	@.setup/setup.sh
+	@$(MAKE) -s $(program) kit
+	@$(python) grader/tests/hostile/hostile_table.py $(ARGS)
+
 clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
 .PHONY: help setup build render test format check-format check-python check watch hint \
     debug handout grade museum calibrate references kit objects variance mitsuba judge-table \
-    class fuzz clean
+    class fuzz hostile clean

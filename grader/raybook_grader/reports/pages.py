@@ -69,6 +69,7 @@ def _environment() -> Environment:
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
+        finalize=_visible,
     )
     environment.filters["points"] = _points
     environment.filters["mark"] = mark_of
@@ -76,6 +77,14 @@ def _environment() -> Environment:
     # The judge makes its pictures from numbers alone.
     environment.filters["trusted"] = Markup
     return environment
+
+
+def _visible(value: object) -> object:
+    """A text without characters that clear a terminal, or hide and reorder others."""
+    if not isinstance(value, str) or isinstance(value, Markup):
+        return value
+    seen = (c if c.isprintable() or c in "\n\t" else "\N{REPLACEMENT CHARACTER}" for c in value)
+    return "".join(seen)
 
 
 def _points(value: float | None) -> str:
