@@ -11,6 +11,7 @@ import sys
 
 from .calibration import commands as calibration
 from .errors import BadInput
+from .exports import commands as exports
 from .grading import commands as grading
 from .judge import commands as judge
 from .literate import commands as literate
@@ -26,7 +27,7 @@ def parser() -> argparse.ArgumentParser:
         description="Grades submissions to the Raybook course; makes its student edition.",
     )
     commands = top.add_subparsers(metavar="COMMAND", required=True)
-    for part in (grading, judge, museum, calibration, literate, sandbox):
+    for part in (grading, exports, judge, museum, calibration, literate, sandbox):
         part.add_commands(commands)
     return top
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from ..checks.words import clean
 from ..course import Course, load_course
 from ..database import Database
+from ..errors import BadInput
 from .gradescope import VISIBILITIES
 from .write import FORMATS, Request, Written, check_request, write_export
 
@@ -92,13 +93,19 @@ def check_exports(requests: Sequence[Request]) -> None:
         check_request(request)
 
 
-def write_exports(out: Path, course: Course, requests: Sequence[Request]) -> None:
-    """Write all of them into ``out``/exports and tell about each."""
+def write_exports(out: Path, course: Course, requests: Sequence[Request]) -> bool:
+    """Write all of them into ``out``/exports and tell about each; False if one cannot be."""
     if not requests:
-        return
+        return True
+    complete = True
     with closing(Database(out)) as database:
         for request in requests:
-            _tell(request, write_export(database, out, course, request))
+            try:
+                _tell(request, write_export(database, out, course, request))
+            except BadInput as fault:
+                print(f"{request.format}: not written: {fault}")
+                complete = False
+    return complete
 
 
 def _export(arguments: argparse.Namespace) -> int:

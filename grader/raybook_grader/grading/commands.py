@@ -12,6 +12,7 @@ from rich.console import Console
 
 from ..course import load_course
 from ..database import Database
+from ..exports.commands import check_exports, export_list, write_exports
 from ..jobs.progress import progress
 from ..reports import write_reports
 from ..sandbox import SandboxUnavailable, require
@@ -71,6 +72,10 @@ def _add_grade(subparsers: Subparsers) -> None:
         help="grade without the sandbox where this machine cannot make one: limits only. Never "
         "for strangers' code; every result and report says so",
     )  # fmt: skip
+    command.add_argument(
+        "--export", metavar="LIST", type=export_list, default=(),
+        help="also write DIR/exports, such as csv,canvas=roster.csv (see `export`)",
+    )  # fmt: skip
     command.set_defaults(handler=_grade)
 
 
@@ -88,6 +93,7 @@ def _grade(arguments: argparse.Namespace) -> int:
     console = Console()
     root = arguments.course.resolve()
     course = load_course(root)
+    check_exports(arguments.export)
     unsafe = _is_unsafe(arguments.unsafe, console)
     order = Order(
         submissions=arguments.submissions,
@@ -107,8 +113,9 @@ def _grade(arguments: argparse.Namespace) -> int:
     print(f"grades: {outcome.grades}\nreport: {outcome.report}")
     if unsafe:
         _warn(console, "these results are unsafe: the students' code ran without a sandbox")
+    exported = write_exports(order.out, course, arguments.export)
     if not outcome.internal_errors:
-        return 0
+        return 0 if exported else 2
     print(
         f"internal errors: {outcome.internal_errors} modules have no score because the grader "
         "failed; the report shows them first, and the same command tries them again"

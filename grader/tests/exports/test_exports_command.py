@@ -45,7 +45,7 @@ def test_grade_takes_a_list_of_exports(tmp_path: Path, capsys: pytest.CaptureFix
     )
     assert [request.format for request in parsed.export] == ["csv", "json", "gradescope", "canvas"]
     class_of(tmp_path, {"a": (right(),)}).close()
-    write_exports(tmp_path, COURSE, parsed.export)
+    assert write_exports(tmp_path, COURSE, parsed.export)
     names = sorted(path.name for path in (tmp_path / "exports").iterdir())
     assert names == ["canvas.csv", "grades.csv", "grades.json", "gradescope"]
     assert "canvas: " in capsys.readouterr().out
@@ -58,3 +58,14 @@ def test_a_bad_list_fails_before_anything_is_graded(tmp_path: Path) -> None:
         check_exports(export_list("csv,moodle"))
     with pytest.raises(BadInput, match="expected a class list"):
         check_exports(export_list(f"canvas={tmp_path / 'nowhere.csv'}"))
+
+
+def test_one_that_cannot_be_written_does_not_stop_the_others(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class_of(tmp_path, {"a": (right(),)}).close()
+    roster = tmp_path / "roster.csv"
+    roster.write_text("Student,ID,Section,01 triangle (3)\n    Points Possible,,,7\nA,a,S,\n")
+    assert not write_exports(tmp_path, COURSE, export_list(f"canvas={roster},csv"))
+    assert "canvas: not written: " in capsys.readouterr().out
+    assert (tmp_path / "exports" / "grades.csv").is_file()
