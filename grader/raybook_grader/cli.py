@@ -12,6 +12,7 @@ import sys
 from .calibration import commands as calibration
 from .errors import BadInput
 from .exports import commands as exports
+from .gradescope import commands as gradescope
 from .grading import commands as grading
 from .judge import commands as judge
 from .literate import commands as literate
@@ -27,7 +28,7 @@ def parser() -> argparse.ArgumentParser:
         description="Grades submissions to the Raybook course; makes its student edition.",
     )
     commands = top.add_subparsers(metavar="COMMAND", required=True)
-    for part in (grading, exports, judge, museum, calibration, literate, sandbox):
+    for part in (grading, exports, gradescope, judge, museum, calibration, literate, sandbox):
         part.add_commands(commands)
     return top
 
