@@ -19,6 +19,7 @@ from .literate import commands as literate
 from .museum import commands as museum
 from .sandbox import SandboxUnavailable
 from .sandbox import commands as sandbox
+from .similarity import commands as similarity
 
 
 def parser() -> argparse.ArgumentParser:
@@ -28,7 +29,9 @@ def parser() -> argparse.ArgumentParser:
         description="Grades submissions to the Raybook course; makes its student edition.",
     )
     commands = top.add_subparsers(metavar="COMMAND", required=True)
-    for part in (grading, exports, gradescope, judge, museum, calibration, literate, sandbox):
+    for part in (
+        grading, exports, gradescope, similarity, judge, museum, calibration, literate, sandbox,
+    ):  # fmt: skip
         part.add_commands(commands)
     return top
 
