@@ -13,6 +13,7 @@ from rich.console import Console
 from ..course import load_course
 from ..database import Database
 from ..exports.commands import check_exports, export_list, write_exports
+from ..jobs.dask_client import ClusterLost, connect
 from ..jobs.progress import progress
 from ..reports import write_reports
 from ..sandbox import SandboxUnavailable, require
@@ -55,6 +56,11 @@ def _add_grade(subparsers: Subparsers) -> None:
         "--jobs", metavar="N", type=_positive, default=len(os.sched_getaffinity(0)),
         help="modules graded at once (default: one a core, here %(default)s)",
     )  # fmt: skip
+    command.add_argument(
+        "--scheduler", metavar="ADDRESS",
+        help="grade on the workers of the Dask scheduler there, such as tcp://10.0.0.1:8786; "
+        "--jobs is then for what is made ready here (docs/instructor/cluster.md)",
+    )  # fmt: skip
     command.add_argument("--fresh", action="store_true", help="forget all earlier results in DIR")
     command.add_argument(
         "--regrade", metavar="LIST", type=_list, default=(),
@@ -95,6 +101,8 @@ def _grade(arguments: argparse.Namespace) -> int:
     course = load_course(root)
     check_exports(arguments.export)
     unsafe = _is_unsafe(arguments.unsafe, console)
+    if arguments.scheduler is not None:
+        connect(arguments.scheduler).close()
     order = Order(
         submissions=arguments.submissions,
         out=arguments.out,
@@ -102,6 +110,7 @@ def _grade(arguments: argparse.Namespace) -> int:
         workers=arguments.jobs,
         fresh=arguments.fresh,
         regrade=arguments.regrade,
+        scheduler=arguments.scheduler,
     )
     worker = Worker(root, (arguments.kit or root / "build" / "kit").resolve(), unsafe)
     try:
@@ -110,6 +119,9 @@ def _grade(arguments: argparse.Namespace) -> int:
         hint = " (without --fresh)" if order.fresh else ""
         print(f"\nstopped; what is graded so far is kept. Go on with the same command{hint}.")
         return 130
+    except ClusterLost as fault:
+        print(f"\n{fault}\nWhat is graded so far is kept. Go on with the same command.")
+        return 1
     print(f"grades: {outcome.grades}\nreport: {outcome.report}")
     if unsafe:
         _warn(console, "these results are unsafe: the students' code ran without a sandbox")

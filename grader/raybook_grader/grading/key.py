@@ -39,7 +39,7 @@ class Keys:
 
     def key(self, assignment: Assignment, files: Mapping[str, SubmittedFile]) -> str:
         """The key of grading these files of a submission in an assignment."""
-        return self._key(self._of(assignment), files)
+        return self._key(self.of_assignment(assignment), files)
 
     def judged(self, assignment: Assignment, files: Mapping[str, SubmittedFile]) -> str:
         """The same without the diagnosis: the museum has no say in it."""
@@ -54,10 +54,11 @@ class Keys:
 
     def known_file(self, assignment: Assignment) -> Path:
         """Where the known mistakes of an assignment are kept, with what they look like."""
-        name = f"{assignment.number}-{assignment.module}-{self._of(assignment)[:24]}.json"
+        name = f"{assignment.number}-{assignment.module}-{self.of_assignment(assignment)[:24]}.json"
         return self._course.root / "build" / "diagnosis" / name
 
-    def _of(self, assignment: Assignment) -> str:
+    def of_assignment(self, assignment: Assignment) -> str:
+        """What the keys of all submissions to an assignment have in common."""
         if assignment.number not in self._assignments:
             self._assignments[assignment.number] = self._assignment(assignment)
         return self._assignments[assignment.number]
@@ -71,7 +72,7 @@ class Keys:
             if path.relative_to(assignment.folder).parts[0] not in without
         ]
         return _hash([
-            self._grader,
+            self.grader,
             self._kit.fingerprint,
             *(["unsafe"] if self._unsafe else []),
             *(_content(path, assignment.folder) for path in used),
@@ -81,14 +82,18 @@ class Keys:
         ])  # fmt: skip
 
     @cached_property
-    def _grader(self) -> str:
-        """The grader's version is its text."""
-        modules = [
-            path
-            for path in _files(_PACKAGE)
-            if path.suffix in (".py", ".c", ".h") and has_a_say(path.relative_to(_PACKAGE))
-        ]
-        return _hash(_content(path, _PACKAGE) for path in modules)
+    def grader(self) -> str:
+        return grader_version()
+
+
+def grader_version() -> str:
+    """The grader's version is its text."""
+    modules = [
+        path
+        for path in _files(_PACKAGE)
+        if path.suffix in (".py", ".c", ".h") and has_a_say(path.relative_to(_PACKAGE))
+    ]
+    return _hash(_content(path, _PACKAGE) for path in modules)
 
 
 def _files(folder: Path) -> list[Path]:

@@ -27,6 +27,7 @@ class Order:
     workers: int
     fresh: bool
     regrade: Collection[str]
+    scheduler: str | None = None
 
 
 def choose_assignments(

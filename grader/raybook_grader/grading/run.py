@@ -16,7 +16,7 @@ from ..checks.shipping import pictures_of
 from ..course import Course
 from ..database import Database, Module, Student
 from ..errors import BadInput
-from ..jobs.pool import Died, run_jobs
+from ..jobs.pool import Died
 from ..jobs.progress import Progressing, progress
 from ..reports import write_reports
 from ..scoring import Verdict
@@ -25,6 +25,7 @@ from .changes import changes, snapshot
 from .export import write_grades
 from .job import Job, Worker
 from .learn import learn
+from .place import run_where_ordered
 from .plan import Order, choose_assignments, plan, refuse_unknown
 from .result import ModuleResult, internal_error
 from .totals import totals
@@ -53,7 +54,7 @@ def grade_class(course: Course, worker: Worker, order: Order, console: Console) 
         if jobs:
             _prepare(worker, {job.assignment for job in jobs}, console)
             learn(worker, {job.assignment for job in jobs}, order.workers, console)
-        _do(jobs, worker, order.workers, database, console)
+        _do(jobs, worker, order, database, console)
         grades = write_grades(database, order.out)
         report = write_reports(database, order.out)
         after = snapshot(database)
@@ -117,12 +118,12 @@ def _prepare(worker: Worker, numbers: Collection[str], console: Console) -> None
 
 
 def _do(
-    jobs: Sequence[Job], worker: Worker, workers: int, database: Database, console: Console
+    jobs: Sequence[Job], worker: Worker, order: Order, database: Database, console: Console
 ) -> None:
     waiting = Waiting(database.waiting())
     with (
         progress(console, "grading", len(jobs)) as bar,
-        closing(run_jobs(jobs, worker, workers)) as done,
+        closing(run_where_ordered(jobs, worker, order, bar.say)) as done,
     ):
         for job, outcome in done:
             result = _result(outcome)
