@@ -144,9 +144,19 @@ hostile: ## [ARGS="--quick"] grades what attacks the grader, case by case: build
 	@$(MAKE) -s $(program) kit
 	@$(python) grader/tests/hostile/hostile_table.py $(ARGS)
 
+cluster-table: ## grades a small class on Dask clusters whose workers die and join: the same grades
+	@.setup/setup.sh
+	@$(MAKE) kit
+	@$(python) grader/tests/cluster/table.py $(ARGS)
+
+simulate: ## [ARGS="--measure"] how 100,000 submissions scale with workers: build/simulation/
+	@.setup/setup.sh
+	@$(MAKE) kit
+	@$(python) grader/tests/scale/simulate.py $(ARGS)
+
 clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
 .PHONY: help setup build render test format check-format check-python check watch hint \
     debug handout grade museum calibrate references kit objects variance mitsuba judge-table \
-    class fuzz hostile clean
+    class fuzz hostile cluster-table simulate clean

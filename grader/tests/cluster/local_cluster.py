@@ -19,16 +19,20 @@ START_SECONDS = 120.0
 class LocalCluster:
     """A scheduler; workers are added one by one. Leaving the `with` ends them all."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(
+        self, folder: Path, environment: Mapping[str, str] | None = None, protocol: str = "tcp://"
+    ) -> None:
         """``folder`` is new; the scheduler's address and everybody's words go there."""
         folder.mkdir()
         self._folder = folder
-        self._environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
+        toys = str(Path(__file__).parent)
+        self._environment = {**os.environ, "PYTHONPATH": toys, **(environment or {})}
         self._workers: list[subprocess.Popen[bytes]] = []
         file = folder / "scheduler.json"
         self._scheduler = self._start(
-            "scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", file
-        )
+            "scheduler", "--host", "127.0.0.1", "--port", "0", "--scheduler-file", file,
+            "--protocol", protocol,
+        )  # fmt: skip
         deadline = time.monotonic() + START_SECONDS
         while not (file.is_file() and file.stat().st_size):
             assert time.monotonic() < deadline and self._scheduler.poll() is None, self.said()
@@ -62,13 +66,18 @@ class LocalCluster:
 
     def kill_in_mid_job(self, number: int) -> None:
         """SIGKILL a worker while it runs something in a box."""
+        self.wait_for_a_job(number)
+        worker = self._workers[number]
+        worker.kill()
+        worker.wait()
+
+    def wait_for_a_job(self, number: int) -> None:
+        """Come back while a worker runs something in a box."""
         worker = self._workers[number]
         deadline = time.monotonic() + START_SECONDS
         while not is_in_a_box(worker.pid):
             assert time.monotonic() < deadline and worker.poll() is None, self.said()
             time.sleep(0.005)
-        worker.kill()
-        worker.wait()
 
     def kill_scheduler(self) -> None:
         self._scheduler.kill()
