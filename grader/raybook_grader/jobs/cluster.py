@@ -90,16 +90,13 @@ class _Run(Generic[J, R]):
     def results(self) -> Iterator[tuple[J, R | Died]]:
         """Every job with its result; gives the count of losses at the end."""
         while self._waiting or self._busy:
-            yield from self._look()
-            while self._idle and self._waiting:
-                hand = next(iter(self._idle))
-                del self._idle[hand]
-                hand.held = self._waiting.popleft()
-                self._busy += 1
-                self._give(hand, do, self._make, hand.held[0])
+            finished = list(self._look())
+            self._hand_out()
             answer = self._answer()
             if answer is not None:
-                yield from self._take(*answer)
+                finished.extend(self._take(*answer))
+            self._hand_out()  # nobody waits while a result is stored
+            yield from finished
         self._say(
             f"cluster: {self._met} workers, {self._done} jobs done, "
             f"{self._lost} times a job was lost with its worker"
@@ -110,7 +107,16 @@ class _Run(Generic[J, R]):
         for hand in self._hands.values():
             self._release(hand)
 
-    def _look(self) -> Iterator[tuple[J, Died]]:
+    def _hand_out(self) -> None:
+        """A job for everybody who has none."""
+        while self._idle and self._waiting:
+            hand = next(iter(self._idle))
+            del self._idle[hand]
+            hand.held = self._waiting.popleft()
+            self._busy += 1
+            self._give(hand, do, self._make, hand.held[0])
+
+    def _look(self) -> Iterator[tuple[J, R | Died]]:
         """Notice, now and then, who has come and who has gone."""
         if time.monotonic() - self._looked < _LOOK_SECONDS:
             return
@@ -155,7 +161,7 @@ class _Run(Generic[J, R]):
             self._idle[hand] = None
             yield held[0], result
 
-    def _failed(self, hand: _Hand[J], fault: BaseException) -> Iterator[tuple[J, Died]]:
+    def _failed(self, hand: _Hand[J], fault: BaseException) -> Iterator[tuple[J, R | Died]]:
         """No result came: the worker cannot do it, or has gone, or the whole cluster has."""
         if isinstance(fault, KeyboardInterrupt | SystemExit):
             raise fault
@@ -182,7 +188,7 @@ class _Run(Generic[J, R]):
         if all(other.refused for other in self._hands.values()):
             raise ClusterLost(f"no worker can do the work; the last one says:\n{objection}")
 
-    def _mourn(self, hand: _Hand[J], words: str = "") -> Iterator[tuple[J, Died]]:
+    def _mourn(self, hand: _Hand[J], words: str = "") -> Iterator[tuple[J, R | Died]]:
         """A worker has gone: what it held is for another, but not for ever."""
         held = hand.held
         self._release(hand)

@@ -79,6 +79,10 @@ class LocalCluster:
             assert time.monotonic() < deadline and worker.poll() is None, self.said()
             time.sleep(0.005)
 
+    @property
+    def scheduler_pid(self) -> int:
+        return self._scheduler.pid
+
     def kill_scheduler(self) -> None:
         self._scheduler.kill()
         self._scheduler.wait()
