@@ -61,7 +61,7 @@ class RemoteWorker:
         if named:
             return Worker(Path(named), Path(named, "build", "kit"))
         if self.worker.root.is_dir() and self.worker.kit.is_dir():
-            return self.worker
+            return Worker(self.worker.root, self.worker.kit)
         return Worker(_OWN_CHECKOUT, _OWN_CHECKOUT / "build" / "kit")
 
 

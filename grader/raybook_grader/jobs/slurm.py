@@ -79,7 +79,7 @@ def job_script(order: Order, scheduler: str) -> str:
 
 def grade(order: Order, arguments: Sequence[str]) -> int:
     """Run `raybook-grader` with these arguments on the cluster; its exit code."""
-    from dask_jobqueue import SLURMCluster
+    from dask_jobqueue.slurm import SLURMCluster
     from distributed import Security
 
     where = {"interface": order.interface} if order.interface else {}

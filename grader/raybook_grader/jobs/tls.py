@@ -1,9 +1,16 @@
 """Who may join a cluster: those who hold its key. Without one, anybody who reaches the scheduler's
-port can run programs as us."""
+port can run programs as us.
+
+    python -m raybook_grader.jobs.tls FOLDER
+
+makes a key in a folder and prints what a shell must be told before it starts a part of the cluster.
+"""
 
 from __future__ import annotations
 
+import shlex
 import subprocess
+import sys
 from pathlib import Path
 
 from ..errors import BadInput
@@ -32,3 +39,17 @@ def tls_environment(folder: Path) -> dict[str, str]:
              for part in ("CERT", "KEY")]  # fmt: skip
     files = {comm + name: str(file) for name in ("TLS__CA_FILE", *roles)}
     return {**files, comm + "REQUIRE_ENCRYPTION": "True"}
+
+
+def main() -> int:
+    """The command line."""
+    if len(sys.argv) != 2:
+        print("usage: python -m raybook_grader.jobs.tls FOLDER", file=sys.stderr)
+        return 2
+    for name, value in tls_environment(Path(sys.argv[1]).absolute()).items():
+        print(f"export {name}={shlex.quote(value)}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

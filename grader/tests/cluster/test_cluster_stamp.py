@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 from raybook_grader.course import load_course
+from raybook_grader.errors import BadInput
+from raybook_grader.grading import remote
 from raybook_grader.grading.job import Worker
 from raybook_grader.grading.key import Keys
 from raybook_grader.grading.remote import RemoteWorker
@@ -49,5 +51,12 @@ def test_what_is_not_made_ready_is_told(tmp_path: Path) -> None:
     (other / "build").mkdir()
     (other / "build" / "kit").symlink_to(CHECKOUT / "build" / "kit")
     worker = RemoteWorker.of(Worker(other, other / "build" / "kit"), {"01"})
-    with pytest.raises(Exception, match=r"lacks.*copy build/reference and build/diagnosis"):
+    with pytest.raises(BadInput, match=r"lacks.*copy build/reference and build/diagnosis"):
+        worker()
+
+
+def test_a_worker_older_than_its_files_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(remote, "_AT_START", "what it was started from")
+    worker = RemoteWorker.of(Worker(CHECKOUT, CHECKOUT / "build" / "kit"), set())
+    with pytest.raises(BadInput, match="changed since this worker was started"):
         worker()

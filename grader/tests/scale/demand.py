@@ -30,7 +30,7 @@ class Demand:
     def different(self) -> int:
         """Modules to grade in one assignment."""
         scale = (self.submissions / CLASS) ** (self.growth - 1)
-        return math.ceil(self.submissions / 3 * min(scale, 3.0))
+        return math.ceil(self.submissions / 3 * min(float(scale), 3.0))
 
     def jobs(self, measured: Sequence[Duration], seed: int = 1) -> list[float]:
         """Durations in the order of the submissions: one of each assignment, then the next."""
