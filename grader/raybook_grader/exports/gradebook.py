@@ -17,13 +17,17 @@ from ..scoring import total
 
 @dataclass(frozen=True)
 class Mark:
-    """One module of one submission. ``checks`` are as in `grades.json`."""
+    """One module of one submission. ``checks`` are as in `grades.json`.
+
+    ``unsafe`` says that the program ran without a sandbox.
+    """
 
     score: float | None
     max_score: float
     verdict: str
     message: str
     checks: Sequence[Mapping[str, Any]]
+    unsafe: bool
 
 
 @dataclass(frozen=True)
@@ -59,6 +63,11 @@ class Gradebook:
                 found.append(f"{row.id}: not graded to the end")
         return found
 
+    @property
+    def unsafe(self) -> int:
+        """How many modules were graded without a sandbox."""
+        return sum(mark.unsafe for row in self.rows for mark in row.marks.values())
+
 
 def read_gradebook(database: Database, numbers: Collection[str] | None = None) -> Gradebook:
     """All modules, or those named.
@@ -79,11 +88,7 @@ def read_gradebook(database: Database, numbers: Collection[str] | None = None) -
 
 def _row(submission: Mapping[str, Any], modules: Sequence[Module], whole: bool) -> Row:
     chosen = {module.number for module in modules}
-    marks = {
-        m["assignment"]: Mark(m["score"], m["max_score"], m["verdict"], m["message"], m["checks"])
-        for m in submission["modules"]
-        if m["assignment"] in chosen
-    }
+    marks = {m["assignment"]: _mark(m) for m in submission["modules"] if m["assignment"] in chosen}
     if whole:
         score, max_score = submission["score"], submission["max_score"]
     else:
@@ -91,6 +96,17 @@ def _row(submission: Mapping[str, Any], modules: Sequence[Module], whole: bool) 
         score = None if absent else total(mark.score for mark in marks.values())
         max_score = round(sum(module.points for module in modules), 2)
     return Row(submission["id"], submission["problem"], score, max_score, marks)
+
+
+def _mark(module: Mapping[str, Any]) -> Mark:
+    return Mark(
+        score=module["score"],
+        max_score=module["max_score"],
+        verdict=module["verdict"],
+        message=module["message"],
+        checks=module["checks"],
+        unsafe=module.get("unsafe", False),
+    )
 
 
 def _is_unknown(mark: Mark | None) -> bool:

@@ -82,6 +82,8 @@ def write_export(database: Database, folder: Path, course: Course, request: Requ
         case _:
             text, notes = _for_platform(gradebook, request)
             _write(path, text)
+    if gradebook.unsafe:
+        notes.append(f"graded without a sandbox, so nothing to rely on: {gradebook.unsafe} modules")
     return Written(path, notes, gradebook.unknown)
 
 

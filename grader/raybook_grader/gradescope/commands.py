@@ -26,8 +26,9 @@ def add_commands(subparsers: Subparsers) -> None:
         "Ubuntu 24.04 or newer. It holds the solutions and hidden checks of its assignments: "
         "Gradescope keeps it from students, and so must you.",
         epilog="Students' programs run in a sandbox that needs user namespaces. Where Gradescope's "
-        "containers forbid them, the image's build stops with that reason. --unsafe grades without "
-        "a sandbox: a student's program can then read the hidden checks and write its own grade.",
+        "containers forbid them, the image's build stops with that reason (`doctor` tells more). "
+        "With --unsafe it goes on without a sandbox there: a student's program can then read the "
+        "hidden checks and write its own grade.",
     )
     command.add_argument("out", metavar="OUT.zip", type=Path, help="the file to write")
     command.add_argument(
@@ -38,7 +39,9 @@ def add_commands(subparsers: Subparsers) -> None:
         help="when students see hidden checks (default: %(default)s)",
     )  # fmt: skip
     command.add_argument(
-        "--unsafe", action="store_true", help="grade without a sandbox; read below what that means"
+        "--unsafe",
+        action="store_true",
+        help="grade even where no sandbox can be made; read below what that means",
     )
     command.add_argument(
         "--course", metavar="DIR", type=Path, default=_CHECKOUT,
@@ -58,7 +61,7 @@ def _bundle(arguments: argparse.Namespace) -> int:
     if written.left_out:
         print(f"left out, because git does not track them: {', '.join(written.left_out)}")
     if config.unsafe:
-        print("without a sandbox: students' programs can read the autograder and its hidden checks")
+        print("where no sandbox can be made, students' programs can read the hidden checks")
     return 0
 
 

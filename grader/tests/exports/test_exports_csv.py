@@ -11,9 +11,10 @@ import pytest
 from small_gradebook import COURSE, FORMULA, broken, class_of, right, stub, wrong
 
 from raybook_grader.errors import BadInput
-from raybook_grader.exports import Request, write_export
+from raybook_grader.exports import Request, gradebook, write_export
 from raybook_grader.exports.cells import cell, table
 from raybook_grader.exports.gradebook import read_gradebook
+from raybook_grader.grading.export import grades
 
 
 @pytest.mark.parametrize(
@@ -75,6 +76,18 @@ def test_naming_modules_sums_them_up(tmp_path: Path) -> None:
     assert not only.unknown
     with pytest.raises(BadInput, match="never graded here"):
         read_gradebook(database, ["07"])
+
+
+def test_grades_from_without_a_sandbox_are_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    database = class_of(tmp_path, {"a": (right(), wrong()), "b": (right(),)})
+    assert not write_export(database, tmp_path, COURSE, Request("csv")).notes
+    values = grades(database)
+    values["submissions"][0]["modules"][1]["unsafe"] = True
+    monkeypatch.setattr(gradebook, "grades", lambda database: values)
+    notes = write_export(database, tmp_path, COURSE, Request("csv")).notes
+    assert notes == ["graded without a sandbox, so nothing to rely on: 1 modules"]
 
 
 def test_json_is_grades_json(tmp_path: Path) -> None:
