@@ -63,8 +63,11 @@ def borrow_kit(place: Path) -> None:
     shutil.copytree(kit, place / "source" / "raybook" / "build" / "kit")
 
 
-def run_there(place: Path, *command: str) -> subprocess.CompletedProcess[str]:
-    """Run a command with the folder at /autograder, which is also the current one."""
+def run_there(place: Path, *command: str, sandbox: bool = True) -> subprocess.CompletedProcess[str]:
+    """Run a command with the folder at /autograder, which is also the current one.
+
+    Without ``sandbox`` no box can be made there: its program is missing.
+    """
     box = ["bwrap", "--tmpfs", "/"]
     for entry in sorted(os.scandir("/"), key=lambda entry: entry.name):
         if entry.is_symlink():
@@ -72,6 +75,8 @@ def run_there(place: Path, *command: str) -> subprocess.CompletedProcess[str]:
         elif entry.is_dir():
             box += ["--dev-bind", entry.path, entry.path]
     box += ["--bind", str(place), "/autograder", "--chdir", "/autograder"]
+    if not sandbox:
+        box += ["--ro-bind", "/dev/null", os.path.realpath(str(shutil.which("bwrap")))]
     environment = {**os.environ, "RAYBOOK_VENV": sys.prefix}
     return subprocess.run(
         [*box, *command], env=environment, capture_output=True, text=True, check=False

@@ -151,6 +151,25 @@ def test_a_failure_of_the_harness_is_no_grade_at_all(place: Path, submission: Pa
     assert "the oracle is broken" in done.stdout and "not a zero either" in done.stdout
 
 
+def test_without_a_sandbox_it_grades_only_when_told_unsafe(place: Path, submission: Path) -> None:
+    (submission / "aabb.c").write_bytes((CHECKOUT / OWNED[1]).read_bytes())
+    config = place / "source" / "bundle.json"
+    kept = config.read_text()
+    try:
+        config.write_text(Config(("02",), "hidden", False).text())
+        refused = run_there(place, "/autograder/run_autograder", sandbox=False)
+        assert refused.returncode == 1 and "not a zero either" in refused.stdout
+        assert "bubblewrap" in refused.stderr and "--unsafe" in refused.stderr
+        assert not (place / "results" / "results.json").exists()
+        config.write_text(Config(("02",), "hidden", True).text())
+        done = run_there(place, "/autograder/run_autograder", sandbox=False)
+    finally:
+        config.write_text(kept)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert {test["status"] for test in results(place)["tests"]} == {"passed"}
+    assert "unsafe" in done.stdout
+
+
 def test_dropped_files_find_their_places(tmp_path: Path) -> None:
     submission = tmp_path / "submission"
     (submission / "src" / "accel").mkdir(parents=True)
