@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import logging
+import socket
 from collections.abc import Mapping
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, Self
+from urllib.parse import urlsplit
 
 from ..errors import BadInput
 
@@ -30,6 +32,7 @@ def connect(address: str) -> Client:
             "--scheduler needs the Python package 'distributed', which is not installed; "
             "`build/venv/bin/pip install distributed` installs it"
         )
+    _knock(address)
     from distributed import Client
 
     # Our own words say what happens to the connection.
@@ -39,10 +42,29 @@ def connect(address: str) -> Client:
         # TLS and the like are taken from Dask's own configuration.
         return Client(address, timeout=_CONNECT_SECONDS, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
-        raise BadInput(
-            f"--scheduler {address!r}: no scheduler answers there ({error}), expected the address "
-            "that `dask scheduler` prints, such as tcp://10.0.0.1:8786"
-        ) from error
+        raise _nobody(address, str(error)) from error
+
+
+def _knock(address: str) -> None:
+    """Fault of an address where nobody listens: at once, where Dask would try for long."""
+    try:
+        parts = urlsplit(address)
+        host, port = parts.hostname, parts.port
+    except ValueError as error:
+        raise _nobody(address, str(error)) from error
+    if parts.scheme not in ("tcp", "tls") or not host or not port:
+        raise _nobody(address, "this is no address")
+    try:
+        socket.create_connection((host, port), timeout=_CONNECT_SECONDS).close()
+    except OSError as error:
+        raise _nobody(address, str(error)) from error
+
+
+def _nobody(address: str, reason: str) -> BadInput:
+    return BadInput(
+        f"--scheduler {address!r}: no scheduler answers there ({reason}), expected the address "
+        "that `dask scheduler` prints, such as tcp://10.0.0.1:8786"
+    )
 
 
 def worker_addresses(client: Client) -> set[str]:

@@ -15,7 +15,6 @@ from make_class import OWNED, solution
 from small_course import FOLDER, command, done, grades, run, small_course, write_submissions
 
 from raybook_grader.cli import main
-from raybook_grader.jobs import dask_client
 
 STUDENTS = 6
 
@@ -118,7 +117,6 @@ def test_nobody_at_the_address(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(dask_client, "_CONNECT_SECONDS", 0.2)
     arguments = ("--out", tmp_path / "out", "--course", course, "--scheduler", "tcp://127.0.0.1:1")
     monkeypatch.setattr(
         sys, "argv", ["raybook-grader", "grade", *map(str, (submissions, *arguments))]
