@@ -132,6 +132,8 @@ class _Run(Generic[J, R]):
         self._told_to_wait = not present
 
     def _give(self, hand: _Hand[J], task: Callable[..., Any], *arguments: Any) -> None:
+        if self._client.status != "running":
+            raise ClusterLost.gone()
         # By its address: a worker that goes takes this task with it.
         hand.future = self._client.submit(task, *arguments, workers=[hand.address], pure=False)
         hand.future.add_done_callback(lambda future: self._answers.put((hand, future)))

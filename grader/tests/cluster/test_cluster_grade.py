@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 import time
@@ -108,6 +109,22 @@ def test_a_worker_with_another_course_gets_no_work(
     assert "another text of assignment 01" in said
     assert "Traceback" not in said, said
     assert not done(tmp_path / "out")
+
+
+def test_stopped_while_it_waits_for_workers(
+    submissions: Path, course: Path, local: Path, tmp_path: Path
+) -> None:
+    with LocalCluster(tmp_path / "cluster") as cluster:
+        grading = start(submissions, tmp_path / "out", course, cluster)
+        assert grading.stdout is not None
+        for line in grading.stdout:
+            if "no workers yet" in line:
+                break
+        grading.send_signal(signal.SIGINT)
+        said, _ = grading.communicate()
+    assert grading.returncode == 130, said
+    assert "Go on with the same command" in said
+    assert "Traceback" not in said
 
 
 def test_nobody_at_the_address(
