@@ -36,6 +36,8 @@ class RemoteWorker:
     @classmethod
     def of(cls, worker: Worker, numbers: Collection[str]) -> RemoteWorker:
         """For jobs of these assignments; everything that they need must have been made ready."""
+        if worker.unsafe:
+            raise BadInput("--unsafe is for this machine alone, expected no --scheduler with it")
         course, kit = load_course(worker.root), load_kit(worker.kit)
         keys = Keys(course, kit)
         return cls(worker, stamp(keys, kit, [a for a in course.assignments if a.number in numbers]))

@@ -60,3 +60,8 @@ def test_a_worker_older_than_its_files_is_told(monkeypatch: pytest.MonkeyPatch) 
     worker = RemoteWorker.of(Worker(CHECKOUT, CHECKOUT / "build" / "kit"), set())
     with pytest.raises(BadInput, match="changed since this worker was started"):
         worker()
+
+
+def test_no_cluster_without_the_sandbox() -> None:
+    with pytest.raises(BadInput, match="--unsafe is for this machine alone"):
+        RemoteWorker.of(Worker(CHECKOUT, CHECKOUT / "build" / "kit", unsafe=True), {"01"})
