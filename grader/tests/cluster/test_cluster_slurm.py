@@ -55,7 +55,8 @@ def test_a_run_from_submission_to_cancelling(tmp_path: Path) -> None:
     submissions = write_submissions(tmp_path / "submissions", texts, OWNED)
     course = small_course(tmp_path / "course")
     ended = subprocess.run(
-        [*SLURM, "--workers", "1", "--interface", "lo", "--scratch", str(tmp_path), "--logs", str(tmp_path), "--",
+        [*SLURM, "--workers", "1", "--interface", "lo", "--scratch", str(tmp_path),
+         "--logs", str(tmp_path), "--",
          "grade", str(submissions), "--out", str(tmp_path / "out"), "--course", str(course)],
         capture_output=True, text=True, env=_with_slurm(tmp_path), cwd=tmp_path,
         timeout=600,
