@@ -49,6 +49,10 @@ class Table:
         self._known.add(key)
         return key in self._values
 
+    def keys(self) -> list[str]:
+        """The keys that nobody has taken yet, where any name may be one."""
+        return list(self._values)
+
     def text(self, key: str, default: str | None = None) -> str:
         value = self.take(key, str, "text that is not empty", default)
         if not value.strip():

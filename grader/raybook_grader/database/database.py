@@ -5,18 +5,23 @@ from __future__ import annotations
 import json
 import sqlite3
 import zlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
+from functools import lru_cache
 from pathlib import Path
 
 from ..course import Assignment
 from ..errors import BadInput
 from ..grading.result import ModuleResult
+from ..policy import NAME as POLICY
+from ..policy import Attempt, Override, Policy, Settled, parse_policy, settle
+from . import decisions, draft
+from .decisions import Decision
+from .migrate import prepare
 
-VERSION = 1
 NAME = "grades.sqlite"
-_SCHEMA = Path(__file__).with_name("schema.sql")
 
 
 @dataclass(frozen=True)
@@ -32,11 +37,27 @@ class Module:
 
 @dataclass(frozen=True)
 class Student:
-    """One submission with its results; None for a module that is not graded yet."""
+    """One student with the results that count; None for a module that is not graded yet.
+
+    The score of a result is the final one. ``settled`` says, by assignment, what it was before and
+    why it changed: a penalty, a person's decision.
+    """
 
     id: str
     problem: str | None
     results: Mapping[str, ModuleResult | None]
+    settled: Mapping[str, Settled] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Version:
+    """One version of a module that a student handed in: the key of its work, a hash of its files
+    alone (None in an old database), and the time in UTC if that is known.
+    """
+
+    key: str
+    files: str | None = None
+    time: datetime | None = None
 
 
 class Database:
@@ -52,29 +73,25 @@ class Database:
             self._db = sqlite3.connect(file, isolation_level=None)
             self._db.execute("PRAGMA journal_mode = WAL")
             self._db.execute("PRAGMA foreign_keys = ON")
-            self._prepare(course)
+            self._db.execute("PRAGMA temp_store = MEMORY")
+            with self._transaction():
+                prepare(self._db, str(file), course or "")
+        except sqlite3.OperationalError:
+            raise
         except sqlite3.DatabaseError as error:
             raise BadInput(f"{file}: {error}, expected this grader's database") from error
-
-    def _prepare(self, course: str | None) -> None:
-        with self._transaction():
-            if not self._db.execute("SELECT 1 FROM sqlite_master").fetchone():
-                for statement in _SCHEMA.read_text(encoding="utf-8").split(";\n"):
-                    self._db.execute(statement)
-                self._db.execute("INSERT INTO about VALUES (?, ?)", (VERSION, course or ""))
-            found = self._db.execute("SELECT version FROM about").fetchone()
-        if found != (VERSION,):
-            raise BadInput(f"{NAME} is of version {found[0]}, expected {VERSION}: use a new folder")
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:
         self._db.execute("BEGIN IMMEDIATE")
         try:
             yield
+            self._db.execute("COMMIT")
         except BaseException:
-            self._db.execute("ROLLBACK")
+            # A full disk has ended the transaction already.
+            if self._db.in_transaction:
+                self._db.execute("ROLLBACK")
             raise
-        self._db.execute("COMMIT")
 
     def close(self) -> None:
         self._db.close()
@@ -83,13 +100,17 @@ class Database:
         self,
         assignments: Iterable[Assignment],
         submissions: Mapping[str, str | None],
-        keys: Mapping[tuple[str, str], str],
+        keys: Mapping[tuple[str, str], str | Sequence[Version]],
+        course: str | None = None,
+        policy: str = "",
     ) -> None:
-        """Say what the class consists of now: its submissions with their problems, and the keys
-        by (submission, assignment). Submissions that are gone lose their grades, not their work;
-        grades of other assignments stay.
+        """Say what the class consists of now: its submissions with their problems, and the
+        versions by (submission, assignment), a mere key for one without a time. Submissions that
+        are gone lose their grades, not their work; grades of other assignments stay.
         """
         with self._transaction():
+            self._db.execute("UPDATE rules SET course = ifnull(?, course)", (course,))
+            self._db.execute("UPDATE rules SET policy = ?", (policy,))
             for a in assignments:
                 self._db.execute(
                     "INSERT INTO assignment VALUES (?, ?, ?, ?, ?) ON CONFLICT (number) DO UPDATE"
@@ -105,16 +126,49 @@ class Database:
                 " SET problem = excluded.problem",
                 submissions.items(),
             )
-            self._db.executemany(
-                "INSERT OR REPLACE INTO grade VALUES (?, ?, ?)",
-                ((submission, number, key) for (submission, number), key in keys.items()),
-            )
+            self._db.executemany("DELETE FROM grade WHERE (submission, assignment) = (?, ?)", keys)
+            self._db.executemany("INSERT INTO grade VALUES (?, ?, ?, ?, ?, ?)", _rows(keys))
+
+    def published(self) -> bool:
+        """Whether grades were ever complete; then a run must show what it would change."""
+        (found,) = self._db.execute("SELECT published FROM about").fetchone()
+        return bool(found)
+
+    def begin_draft(self) -> None:
+        """From now on `plan` and all that reads mean a draft, which begins as what is there."""
+        with self._transaction():
+            draft.begin(self._db)
+
+    def publish(self) -> None:
+        """What is there is what counts; a draft takes the place of what was published."""
+        with self._transaction():
+            draft.publish(self._db)
+
+    def drop_draft(self, shown: Iterable[str] = ()) -> None:
+        """Back to what is published. ``shown``: the keys of what was redone and seen."""
+        with self._transaction():
+            draft.mark_shown(self._db, shown)
+            draft.drop(self._db)
+
+    def redo(self, keys: Collection[str], keep_shown: bool) -> dict[str, str]:
+        """Have finished work done again beside the old; the keys to plan by the old ones.
+
+        What was begun goes on. What has been done again and shown is begun once more, or kept if
+        ``keep_shown``, to be published.
+        """
+        with self._transaction():
+            draft.redo(self._db, keys, keep_shown)
+        return {key: key + draft.AGAIN for key in keys}
 
     def forget(self, keys: Iterable[str] | None = None) -> None:
-        """Drop finished work, all of it by default, so that it is done again."""
+        """Drop finished work so that it is done again; by default all of it, and nothing counts as
+        published any more. What people decided stays.
+        """
         with self._transaction():
             if keys is None:
                 self._db.execute("DELETE FROM work")
+                self._db.execute("DELETE FROM redo")
+                self._db.execute("UPDATE about SET published = 0")
             else:
                 self._db.executemany("DELETE FROM work WHERE key = ?", ((key,) for key in keys))
 
@@ -132,14 +186,17 @@ class Database:
         ]
         with self._transaction():
             self._db.execute("DELETE FROM work WHERE key = ?", (key,))
-            self._db.execute(
-                "INSERT INTO work VALUES (?, ?, ?, datetime('now'))", (key, final, text)
-            )
+            self._db.execute("INSERT INTO work VALUES (?, ?, ?, ?)", (key, final, text, _now()))
             self._db.executemany("INSERT INTO picture VALUES (?, ?, ?)", pictures)
 
     def course(self) -> str:
-        (name,) = self._db.execute("SELECT course FROM about").fetchone()
+        (name,) = self._db.execute("SELECT course FROM rules").fetchone()
         return str(name)
+
+    def policy(self) -> Policy:
+        """The rules of the class, as they were when it was graded last."""
+        (text,) = self._db.execute("SELECT policy FROM rules").fetchone()
+        return _policy(text)
 
     def modules(self) -> list[Module]:
         """The assignments that were ever graded, by number."""
@@ -167,19 +224,103 @@ class Database:
         found = self._db.execute("SELECT problem FROM submission WHERE id = ?", (name,)).fetchone()
         if found is None:
             raise KeyError(name)
-        grades = self._db.execute(
-            "SELECT assignment, grade.key, result FROM grade LEFT JOIN work USING (key)"
-            " WHERE submission = ? ORDER BY assignment",
-            (name,),
-        ).fetchall()
-        results = {n: self._result(key, text, pictures) for n, key, text in grades}
-        return Student(name, found[0], results)
+        versions = self.versions(name)
+        results = {
+            number: [self._result(version.key) for version in own]
+            for number, own in versions.items()
+        }
+        attempts = {
+            number: [
+                Attempt(version.time, result.score if result else None)
+                for version, result in zip(own, results[number], strict=True)
+            ]
+            for number, own in versions.items()
+        }
+        optional = {module.number for module in self.modules() if module.optional}
+        settled = settle(self.policy(), name, attempts, optional, self._overrides(name))
+        final: dict[str, ModuleResult | None] = {}
+        for number, one in settled.items():
+            result = results[number][one.attempt]
+            if result is not None and pictures:
+                result = result.with_pictures(self._pictures(versions[number][one.attempt].key))
+            final[number] = result and replace(result, score=one.score)
+        return Student(name, found[0], final, settled)
 
-    def _result(self, key: str, text: str | None, pictures: bool) -> ModuleResult | None:
-        if text is None:
+    def versions(self, name: str) -> dict[str, list[Version]]:
+        """What a student handed in, by assignment and in order."""
+        found: dict[str, list[Version]] = {}
+        for number, key, files, time in self._db.execute(
+            "SELECT assignment, key, files, handed_in FROM grade"
+            " WHERE submission = ? ORDER BY assignment, place",
+            (name,),
+        ):
+            handed_in = None if time is None else datetime.fromisoformat(time)
+            found.setdefault(number, []).append(Version(key, files, handed_in))
+        return found
+
+    def decide(
+        self, student: str, assignment: str, points: float, reason: str, by: str
+    ) -> Decision:
+        """Write down, for ever, what a module's points are whatever the grader finds."""
+        with self._transaction():
+            number = decisions.add(self._db, student, assignment, points, None, reason, by, _now())
+        return self.decision(number)
+
+    def withdraw(self, number: int, reason: str, by: str) -> Decision:
+        """Write down that a decision no longer holds; the one before it does again."""
+        old = self.decision(number)
+        with self._transaction():
+            new = decisions.add(
+                self._db, old.student, old.assignment, None, number, reason, by, _now()
+            )
+        return self.decision(new)
+
+    def decisions(self) -> list[Decision]:
+        """All that people decided, in that order."""
+        return decisions.all_of(self._db)
+
+    def decision(self, number: int) -> Decision:
+        """One of them; KeyError when there is none of that number."""
+        for decision in self.decisions():
+            if decision.number == number:
+                return decision
+        raise KeyError(number)
+
+    def _overrides(self, name: str) -> dict[str, Override]:
+        rows = decisions.all_of(self._db, name)
+        return {row.assignment: one for row in rows if (one := row.override()) is not None}
+
+    def _result(self, key: str) -> ModuleResult | None:
+        row = self._db.execute("SELECT result FROM work WHERE key = ?", (key,)).fetchone()
+        if row is None:
             return None
-        result = ModuleResult.from_json(json.loads(text))
-        if not pictures:
-            return result
+        try:
+            return ModuleResult.from_json(json.loads(row[0]))
+        except (ValueError, KeyError, TypeError) as error:
+            raise sqlite3.DatabaseError(f"the result {key[:12]} cannot be read") from error
+
+    def _pictures(self, key: str) -> dict[int, str]:
         rows = self._db.execute("SELECT place, html FROM picture WHERE key = ?", (key,))
-        return result.with_pictures({i: zlib.decompress(html).decode() for i, html in rows})
+        try:
+            return {i: zlib.decompress(html).decode() for i, html in rows}
+        except (ValueError, TypeError, zlib.error) as error:
+            raise sqlite3.DatabaseError(f"a picture of {key[:12]} cannot be read") from error
+
+
+def _rows(
+    keys: Mapping[tuple[str, str], str | Sequence[Version]],
+) -> Iterator[tuple[str, str, int, str, str | None, str | None]]:
+    for (submission, number), given in keys.items():
+        versions = [Version(given)] if isinstance(given, str) else given
+        for place, version in enumerate(versions):
+            time = version.time.isoformat() if version.time else None
+            yield submission, number, place, version.key, version.files, time
+
+
+@lru_cache(maxsize=4)
+def _policy(text: str) -> Policy:
+    return parse_policy(text, Path(POLICY)) if text else Policy()
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")

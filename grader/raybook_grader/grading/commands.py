@@ -15,6 +15,7 @@ from ..database import Database
 from ..exports.commands import check_exports, export_list, write_exports
 from ..jobs.dask_client import ClusterLost, connect
 from ..jobs.progress import progress
+from ..policy import find_policy
 from ..reports import write_reports
 from ..sandbox import SandboxUnavailable, require
 from .job import Worker
@@ -64,7 +65,17 @@ def _add_grade(subparsers: Subparsers) -> None:
     command.add_argument("--fresh", action="store_true", help="forget all earlier results in DIR")
     command.add_argument(
         "--regrade", metavar="LIST", type=_list, default=(),
-        help="do these submissions again, and say what has changed",
+        help="do these submissions again, or 'all', and say what would change, for whom",
+    )  # fmt: skip
+    command.add_argument(
+        "--apply", action="store_true",
+        help="apply what would change in published grades; otherwise it is only said "
+        "(on a terminal: asked)",
+    )  # fmt: skip
+    command.add_argument(
+        "--policy", metavar="FILE", type=Path,
+        help="deadlines, late days and extensions (default: SUBMISSIONS/course.toml if it is "
+        "there; docs/instructor/policies.md)",
     )  # fmt: skip
     command.add_argument(
         "--course", metavar="DIR", type=Path, default=_CHECKOUT,
@@ -111,6 +122,8 @@ def _grade(arguments: argparse.Namespace) -> int:
         fresh=arguments.fresh,
         regrade=arguments.regrade,
         scheduler=arguments.scheduler,
+        apply=arguments.apply,
+        policy=find_policy(arguments.submissions, arguments.policy),
     )
     worker = Worker(root, (arguments.kit or root / "build" / "kit").resolve(), unsafe)
     try:
@@ -122,7 +135,8 @@ def _grade(arguments: argparse.Namespace) -> int:
     except ClusterLost as fault:
         print(f"\n{fault}\nWhat is graded so far is kept. Go on with the same command.")
         return 1
-    print(f"grades: {outcome.grades}\nreport: {outcome.report}")
+    if not outcome.is_held:
+        print(f"grades: {outcome.grades}\nreport: {outcome.report}")
     if unsafe:
         _warn(console, "these results are unsafe: the students' code ran without a sandbox")
     exported = write_exports(order.out, course, arguments.export)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from typing import Any
+from zoneinfo import ZoneInfo
 
 from ..database import Database, Module, Student
 from ..files import write_text
+from ..policy import Policy, Settled, late_days_used, settled_json
 from .result import ModuleResult
 from .totals import totals
 
@@ -24,8 +26,8 @@ def write_grades(database: Database, folder: Path) -> Path:
 
 def grades(database: Database) -> dict[str, Any]:
     """All submissions with their modules and checks; ``score`` is null where the harness failed."""
-    modules = database.modules()
-    submissions = [_submission(s, modules) for s in database.students()]
+    modules, policy = database.modules(), database.policy()
+    submissions = [_submission(s, modules, policy) for s in database.students()]
     return {
         "version": VERSION,
         "course": database.course(),
@@ -34,7 +36,7 @@ def grades(database: Database) -> dict[str, Any]:
     }
 
 
-def _submission(student: Student, modules: list[Module]) -> dict[str, Any]:
+def _submission(student: Student, modules: list[Module], policy: Policy) -> dict[str, Any]:
     sums = totals(student, modules)
     return {
         "id": student.id,
@@ -42,21 +44,25 @@ def _submission(student: Student, modules: list[Module]) -> dict[str, Any]:
         "max_score": sums.max_score,
         "optional": sums.optional,
         "problem": student.problem,
+        "late_days": {"budget": policy.late.days, "used": late_days_used(student.settled)},
         "modules": [
-            _module(module, result)
+            _module(module, result, student.settled.get(module.number), policy.zone)
             for module in modules
             if (result := student.results.get(module.number)) is not None
         ],
     }
 
 
-def _module(module: Module, result: ModuleResult) -> dict[str, Any]:
+def _module(
+    module: Module, result: ModuleResult, settled: Settled | None, zone: ZoneInfo
+) -> dict[str, Any]:
     return {
         "assignment": module.number,
         "module": module.module,
         "score": result.score,
         "max_score": module.points,
         "verdict": result.verdict.value,
+        **(settled_json(settled, zone) if settled else {}),
         "message": result.message,
         "unsafe": result.unsafe,
         "diagnosis": [diagnosis.to_json() for diagnosis in result.diagnosis],

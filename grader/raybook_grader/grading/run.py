@@ -5,7 +5,7 @@ from __future__ import annotations
 import fcntl
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rich.console import Console
@@ -18,13 +18,17 @@ from ..database import Database, Module, Student
 from ..errors import BadInput
 from ..jobs.pool import Died
 from ..jobs.progress import Progressing, progress
-from ..reports import write_reports
+from ..policy import Policy
+from ..reports import INDEX, write_reports
 from ..scoring import Verdict
 from ..submissions import Submission, find_submissions
-from .changes import changes, snapshot
+from .agree import agree
+from .changes import changes, internal_errors, snapshot
+from .export import NAME as GRADES
 from .export import write_grades
 from .job import Job, Worker
 from .learn import learn
+from .notes import policy_lines
 from .place import run_where_ordered
 from .plan import Order, choose_assignments, plan, refuse_unknown
 from .result import ModuleResult, internal_error
@@ -34,34 +38,43 @@ from .waiting import Waiting
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a run ended: how many modules the harness failed in, and where the results are."""
+    """How a run ended: how many modules the harness failed in, and where the results are.
+
+    ``is_held``: they are still the earlier ones, for nobody has agreed to the changes.
+    """
 
     internal_errors: int
     grades: Path
     report: Path
+    is_held: bool = False
 
 
 def grade_class(course: Course, worker: Worker, order: Order, console: Console) -> Outcome:
     """Grade a class. A KeyboardInterrupt passes through; what is done by then is kept."""
     assignments = choose_assignments(course, order.assignments, console)
     owned = [path for assignment in assignments for path in assignment.owned]
-    submissions, ignored = find_submissions(order.submissions, owned)
+    rules = order.rules(course)
+    submissions, ignored = find_submissions(order.submissions, owned, rules.zone)
     refuse_unknown(order.regrade, submissions)
     with _locked(order.out), closing(Database(order.out, course.name)) as database:
         before = snapshot(database)
-        jobs = plan(course, worker, order, assignments, submissions, database)
-        _introduce(console, order.submissions, submissions, ignored, jobs, database)
+        planned = plan(course, worker, order, assignments, submissions, database)
+        jobs = planned.jobs
+        _introduce(console, order, rules, submissions, ignored, jobs, database)
         if jobs:
             _prepare(worker, {job.assignment for job in jobs}, console)
             learn(worker, {job.assignment for job in jobs}, order.workers, console)
         _do(jobs, worker, order, database, console)
-        grades = write_grades(database, order.out)
-        report = write_reports(database, order.out)
         after = snapshot(database)
-        for line in changes(before, after):
-            progress(console, "", 0).say(line)
-    errors = sum(grade.verdict is Verdict.INTERNAL_ERROR for grade in after.values())
-    return Outcome(errors, grades, report)
+        outcome = Outcome(internal_errors(after), order.out / GRADES, order.out / INDEX)
+        agreed = agree(list(changes(before, after)), order, database.published(), console)
+        if not agreed:
+            database.drop_draft(shown=planned.redone)
+            return replace(outcome, is_held=True)
+        database.publish()
+        write_grades(database, order.out)
+        write_reports(database, order.out)
+    return outcome
 
 
 @contextmanager
@@ -82,7 +95,8 @@ def _locked(out: Path) -> Iterator[None]:
 
 def _introduce(
     console: Console,
-    folder: Path,
+    order: Order,
+    rules: Policy,
     submissions: Sequence[Submission],
     ignored: Sequence[str],
     jobs: Sequence[Job],
@@ -91,10 +105,12 @@ def _introduce(
     """Say what there is and what is left to do."""
     say = progress(console, "", 0).say
     if ignored:
-        say(f"{folder}: passed over, neither folder nor archive: {', '.join(ignored)}")
+        say(f"{order.submissions}: passed over, neither folder nor archive: {', '.join(ignored)}")
     for submission in submissions:
         if submission.problem:
             say(f"{submission.id}: {submission.problem}")
+    for line in policy_lines(order.policy, rules, submissions):
+        say(line)
     waiting = database.waiting()
     modules = sum(len(numbers) for numbers in waiting.values())
     same = f", {len(jobs)} of them different" if len(jobs) < modules else ""

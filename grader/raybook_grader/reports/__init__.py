@@ -1,5 +1,5 @@
 """The pages that students and instructors read. Each is one file that opens offline."""
 
-from .pages import write_reports
+from .pages import INDEX, write_reports
 
-__all__ = ["write_reports"]
+__all__ = ["INDEX", "write_reports"]

@@ -11,6 +11,7 @@ from ..checks.result import NO_FAULT
 from ..database import Module, Student
 from ..grading.result import ModuleResult
 from ..grading.totals import Totals, totals
+from ..policy import Settled
 from ..scoring import Verdict
 from .names import page_name
 
@@ -27,6 +28,8 @@ class Row:
     problem: str | None
     totals: Totals
     cells: tuple[ModuleResult | None, ...]
+    notes: tuple[str, ...] = ()
+    """Why a cell's points are not those of its checks, in a word; one entry a module."""
 
     @property
     def has_internal_error(self) -> bool:
@@ -108,7 +111,16 @@ def _row(student: Student, modules: Sequence[Module]) -> Row:
         problem=student.problem,
         totals=totals(student, modules),
         cells=tuple(student.results.get(module.number) for module in modules),
+        notes=tuple(_note(student.settled.get(module.number)) for module in modules),
     )
+
+
+def _note(settled: Settled | None) -> str:
+    if settled is None:
+        return ""
+    if settled.override:
+        return "set by hand"
+    return f"{settled.penalty.days_late} d late" if settled.penalty else ""
 
 
 def _bars(shares: Sequence[float]) -> tuple[Bar, ...]:

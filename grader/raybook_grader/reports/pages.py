@@ -12,10 +12,13 @@ from ..database import Database, Student
 from ..files import write_text
 from ..grading.totals import totals
 from ..judge.viewer import viewer_assets
+from ..policy import told
 from ..scoring import Verdict
 from .class_view import class_view
 from .marks import mark_of
 from .names import page_name
+
+INDEX = "index.html"
 
 
 def write_reports(database: Database, folder: Path) -> Path:
@@ -25,7 +28,7 @@ def write_reports(database: Database, folder: Path) -> Path:
     database are the same bytes whenever they are written.
     """
     environment = _environment()
-    course, modules = database.course(), database.modules()
+    course, modules, zone = database.course(), database.modules(), database.policy().zone
     pages = folder / "students"
     pages.mkdir(exist_ok=True)
     template = environment.get_template("student.html")
@@ -38,6 +41,7 @@ def write_reports(database: Database, folder: Path) -> Path:
             modules=modules,
             totals=totals(student, modules),
             unsafe=_is_unsafe([student]),
+            reasons={number: told(one, zone) for number, one in student.settled.items()},
             viewer_assets=viewer_assets() if _has_picture(student) else "",
         )
         write_text(pages / name, page)
@@ -47,7 +51,7 @@ def write_reports(database: Database, folder: Path) -> Path:
             old.unlink()
     unsafe = _is_unsafe(database.students())
     view = class_view(course, modules, database.students())
-    index = folder / "index.html"
+    index = folder / INDEX
     write_text(index, environment.get_template("class.html").render(view=view, unsafe=unsafe))
     return index
 
