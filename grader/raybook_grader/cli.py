@@ -10,10 +10,11 @@ import argparse
 import sys
 
 from .calibration import commands as calibration
-from .errors import BadInput
+from .errors import BadInput, Trouble
 from .exports import commands as exports
 from .gradescope import commands as gradescope
 from .grading import commands as grading
+from .grading import override_command as override
 from .judge import commands as judge
 from .literate import commands as literate
 from .museum import commands as museum
@@ -30,7 +31,7 @@ def parser() -> argparse.ArgumentParser:
     )
     commands = top.add_subparsers(metavar="COMMAND", required=True)
     for part in (
-        grading, exports, gradescope, similarity, judge, museum, calibration, literate, sandbox,
+        grading, override, exports, gradescope, similarity, judge, museum, calibration, literate, sandbox,
     ):  # fmt: skip
         part.add_commands(commands)
     return top
@@ -43,7 +44,7 @@ def main() -> int:
         return int(arguments.handler(arguments))
     except BadInput as fault:
         return _fail(str(fault), 2)
-    except SandboxUnavailable as fault:
+    except (SandboxUnavailable, Trouble) as fault:
         return _fail(str(fault), 1)
     except KeyboardInterrupt:
         return 130

@@ -8,3 +8,10 @@ class BadInput(Exception):
 
     The command line prints it and exits 2; nothing partial is left behind.
     """
+
+
+class Trouble(Exception):
+    """The machine stands in the way: a full disk, a file that is damaged or cannot be written.
+
+    The message says what is kept and how to go on. The command line prints it and exits 1.
+    """

@@ -65,4 +65,8 @@ def all_of(database: sqlite3.Connection, student: str | None = None) -> list[Dec
     last = {
         (row[1], row[2]): row[0] for row in rows if row[3] is not None and row[0] not in withdrawn
     }
-    return [Decision(*row, last.get((row[1], row[2])) == row[0]) for row in rows]
+    holding = set(last.values())
+    return [
+        Decision(number, name, assignment, points, withdraws, reason, who, at, number in holding)
+        for number, name, assignment, points, withdraws, reason, who, at in rows
+    ]

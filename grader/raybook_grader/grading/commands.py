@@ -21,6 +21,7 @@ from ..sandbox import SandboxUnavailable, require
 from .job import Worker
 from .plan import Order
 from .run import grade_class
+from .trouble import in_words
 
 if TYPE_CHECKING:
     # argparse has no public name for what add_subparsers() returns.
@@ -127,7 +128,8 @@ def _grade(arguments: argparse.Namespace) -> int:
     )
     worker = Worker(root, (arguments.kit or root / "build" / "kit").resolve(), unsafe)
     try:
-        outcome = grade_class(course, worker, order, console)
+        with in_words(order.out):
+            outcome = grade_class(course, worker, order, console)
     except KeyboardInterrupt:
         hint = " (without --fresh)" if order.fresh else ""
         print(f"\nstopped; what is graded so far is kept. Go on with the same command{hint}.")
@@ -173,7 +175,7 @@ def _warn(console: Console, words: str) -> None:
 
 
 def _report(arguments: argparse.Namespace) -> int:
-    with closing(Database(arguments.out)) as database:
+    with in_words(arguments.out), closing(Database(arguments.out)) as database:
         print(f"report: {write_reports(database, arguments.out)}")
     return 0
 

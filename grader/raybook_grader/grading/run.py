@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import fcntl
-from collections.abc import Collection, Iterator, Sequence
-from contextlib import closing, contextmanager
+from collections.abc import Collection, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -15,7 +14,6 @@ from ..checks.reference import References
 from ..checks.shipping import pictures_of
 from ..course import Course
 from ..database import Database, Module, Student
-from ..errors import BadInput
 from ..jobs.pool import Died
 from ..jobs.progress import Progressing, progress
 from ..policy import Policy
@@ -28,6 +26,7 @@ from .export import NAME as GRADES
 from .export import write_grades
 from .job import Job, Worker
 from .learn import learn
+from .lock import locked
 from .notes import policy_lines
 from .place import run_where_ordered
 from .plan import Order, choose_assignments, plan, refuse_unknown
@@ -56,7 +55,7 @@ def grade_class(course: Course, worker: Worker, order: Order, console: Console) 
     rules = order.rules(course)
     submissions, ignored = find_submissions(order.submissions, owned, rules.zone)
     refuse_unknown(order.regrade, submissions)
-    with _locked(order.out), closing(Database(order.out, course.name)) as database:
+    with locked(order.out), closing(Database(order.out, course.name)) as database:
         before = snapshot(database)
         planned = plan(course, worker, order, assignments, submissions, database)
         jobs = planned.jobs
@@ -75,22 +74,6 @@ def grade_class(course: Course, worker: Worker, order: Order, console: Console) 
         write_grades(database, order.out)
         write_reports(database, order.out)
     return outcome
-
-
-@contextmanager
-def _locked(out: Path) -> Iterator[None]:
-    """The output folder, made if need be, for one run at a time; a kill frees it."""
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        lock = (out / ".lock").open("w")
-    except OSError as error:
-        raise BadInput(f"{out}: {error.strerror}, expected a folder to write to") from error
-    with lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            raise BadInput(f"{out}: another run is grading into it") from error
-        yield
 
 
 def _introduce(
