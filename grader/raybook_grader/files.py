@@ -9,10 +9,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+_ASIDE = ".part"
+
 
 def write_bytes(file: Path, content: bytes) -> None:
     """Write aside, then rename; the folder must exist."""
-    descriptor, aside = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name[:50]}.")
+    prefix = f".{file.name[:50]}."
+    descriptor, aside = tempfile.mkstemp(dir=file.parent, prefix=prefix, suffix=_ASIDE)
     try:
         with os.fdopen(descriptor, "wb") as stream:
             stream.write(content)
@@ -21,6 +24,12 @@ def write_bytes(file: Path, content: bytes) -> None:
     except BaseException:
         Path(aside).unlink(missing_ok=True)
         raise
+
+
+def sweep(folder: Path) -> None:
+    """Remove what a killed `write_bytes` has left in a folder; nobody may be writing there."""
+    for left in folder.glob(f".*{_ASIDE}"):
+        left.unlink(missing_ok=True)
 
 
 def write_text(file: Path, text: str) -> None:

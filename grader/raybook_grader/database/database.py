@@ -76,9 +76,9 @@ class Database:
             self._db.execute("PRAGMA temp_store = MEMORY")
             with self._transaction():
                 prepare(self._db, str(file), course or "")
-        except sqlite3.OperationalError:
-            raise
         except sqlite3.DatabaseError as error:
+            if error.sqlite_errorcode != sqlite3.SQLITE_NOTADB:
+                raise
             raise BadInput(f"{file}: {error}, expected this grader's database") from error
 
     @contextmanager

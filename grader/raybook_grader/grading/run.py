@@ -14,6 +14,7 @@ from ..checks.reference import References
 from ..checks.shipping import pictures_of
 from ..course import Course
 from ..database import Database, Module, Student
+from ..files import sweep
 from ..jobs.pool import Died
 from ..jobs.progress import Progressing, progress
 from ..policy import Policy
@@ -56,6 +57,8 @@ def grade_class(course: Course, worker: Worker, order: Order, console: Console) 
     submissions, ignored = find_submissions(order.submissions, owned, rules.zone)
     refuse_unknown(order.regrade, submissions)
     with locked(order.out), closing(Database(order.out, course.name)) as database:
+        for written in (order.out, order.out / "students"):
+            sweep(written)
         before = snapshot(database)
         planned = plan(course, worker, order, assignments, submissions, database)
         jobs = planned.jobs

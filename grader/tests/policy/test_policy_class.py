@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from policy_fixtures import Command
+from policy_fixtures import course as course
+from policy_fixtures import grade as grade
+from policy_fixtures import grader as grader
 from tiny_course import grades, hand_in, modules
-
-from conftest import Command
 
 RULES = """
 course = "Pictures, 2026"

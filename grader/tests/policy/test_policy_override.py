@@ -6,9 +6,11 @@ import shutil
 from pathlib import Path
 
 import pytest
+from policy_fixtures import Command
+from policy_fixtures import course as course
+from policy_fixtures import grade as grade
+from policy_fixtures import grader as grader
 from tiny_course import grades, hand_in, modules
-
-from conftest import Command
 
 EVIL = "<script>alert('x')</script>\x1b[31m"
 

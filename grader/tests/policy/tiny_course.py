@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
@@ -64,11 +64,20 @@ def write_rubric(root: Path, number: str, points: Mapping[str, int] = POINTS) ->
     file.write_text("\n".join(lines) + "\n")
 
 
+def pixels(right: bool, seed: int = 0) -> Any:
+    side = 8 if right else 4
+    return np.random.default_rng(seed).random((side, side, 3), dtype=np.float32)
+
+
 @cache
 def picture(right: bool, seed: int = 0) -> bytes:
-    side = 8 if right else 4
-    pixels = np.random.default_rng(seed).random((side, side, 3), dtype=np.float32)
-    return encode_exr(pixels)
+    return encode_exr(pixels(right, seed))
+
+
+def decode_here(files: Sequence[bytes], max_pixels: int) -> list[Any]:
+    """The pixels of such pictures without a process of their own, which takes longer."""
+    right = {picture(True, ord(letter)) for letter in POINTS}
+    return [pixels(file in right) for file in files]
 
 
 def hand_in(folder: Path, name: str, work: Mapping[str, str]) -> None:

@@ -1,4 +1,6 @@
-"""A tiny course, and its commands in this process."""
+"""Fixtures: a tiny course, and the grader's commands in this process.
+
+Tests import them by name."""
 
 from __future__ import annotations
 
@@ -9,6 +11,8 @@ from pathlib import Path
 import pytest
 import tiny_course
 from tiny_course import Run
+
+from raybook_grader.checks import artefact
 
 Command = Callable[..., Run]
 
@@ -28,6 +32,7 @@ def grader(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) 
             continue
         if hasattr(module, "run_jobs"):
             monkeypatch.setattr(module, "run_jobs", tiny_course.here)
+    monkeypatch.setattr(artefact, "decode", tiny_course.decode_here)
     return lambda *arguments: tiny_course.run(monkeypatch, capsys, *arguments)
 
 
