@@ -135,6 +135,11 @@ class: ## [N=200] [SEED=1] [A=01,03] grades a made-up class, and compares every 
 	@$(python) grader/tests/classroom/classroom.py $(or $(N),200) --seed $(or $(SEED),1) \
 	    $(if $(A),--assignment $(A)) $(ARGS)
 
+kill-table: ## [KILLS=200] kills runs of the grader at random moments and compares what comes of it
+	@.setup/setup.sh
+	@$(MAKE) kit
+	@$(python) grader/tests/grade/kill_table.py --kills $(or $(KILLS),200) $(ARGS)
+
 fuzz: ## [SECONDS=600] searches for files that crash the readers of scenes, meshes and images
 	@.setup/setup.sh
 	@$(python) grader/tests/fuzz/run.py --seconds $(or $(SECONDS),600) $(ARGS)
@@ -159,4 +164,4 @@ clean: ## removes what is compiled; keeps the installed environment
 
 .PHONY: help setup build render test format check-format check-python check watch hint \
     debug handout grade museum calibrate references kit objects variance mitsuba judge-table \
-    class fuzz hostile cluster-table simulate clean
+    class fuzz kill-table hostile cluster-table simulate clean

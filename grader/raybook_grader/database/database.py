@@ -7,57 +7,19 @@ import sqlite3
 import zlib
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
-from functools import lru_cache
 from pathlib import Path
 
 from ..course import Assignment
 from ..errors import BadInput
 from ..grading.result import ModuleResult
-from ..policy import NAME as POLICY
-from ..policy import Attempt, Override, Policy, Settled, parse_policy, settle
-from . import decisions, draft
+from ..policy import Policy
+from . import decisions, draft, reading
 from .decisions import Decision
 from .migrate import prepare
+from .values import Module, Student, Version
 
 NAME = "grades.sqlite"
-
-
-@dataclass(frozen=True)
-class Module:
-    """What an assignment is called and worth, as it was when it was graded."""
-
-    number: str
-    module: str
-    title: str
-    points: float
-    optional: bool
-
-
-@dataclass(frozen=True)
-class Student:
-    """One student with the results that count; None for a module that is not graded yet.
-
-    The score of a result is the final one. ``settled`` says, by assignment, what it was before and
-    why it changed: a penalty, a person's decision.
-    """
-
-    id: str
-    problem: str | None
-    results: Mapping[str, ModuleResult | None]
-    settled: Mapping[str, Settled] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Version:
-    """One version of a module that a student handed in: the key of its work, a hash of its files
-    alone (None in an old database), and the time in UTC if that is known.
-    """
-
-    key: str
-    files: str | None = None
-    time: datetime | None = None
 
 
 class Database:
@@ -195,13 +157,11 @@ class Database:
 
     def policy(self) -> Policy:
         """The rules of the class, as they were when it was graded last."""
-        (text,) = self._db.execute("SELECT policy FROM rules").fetchone()
-        return _policy(text)
+        return reading.policy(self._db)
 
     def modules(self) -> list[Module]:
         """The assignments that were ever graded, by number."""
-        rows = self._db.execute("SELECT * FROM assignment ORDER BY number")
-        return [Module(n, m, t, points, bool(optional)) for n, m, t, points, optional in rows]
+        return reading.modules(self._db)
 
     def waiting(self) -> dict[str, set[str]]:
         """The keys of the work that is not done, by submission."""
@@ -221,42 +181,11 @@ class Database:
 
     def student(self, name: str, pictures: bool = False) -> Student:
         """One submission; KeyError when there is none of that id."""
-        found = self._db.execute("SELECT problem FROM submission WHERE id = ?", (name,)).fetchone()
-        if found is None:
-            raise KeyError(name)
-        versions = self.versions(name)
-        results = {
-            number: [self._result(version.key) for version in own]
-            for number, own in versions.items()
-        }
-        attempts = {
-            number: [
-                Attempt(version.time, result.score if result else None)
-                for version, result in zip(own, results[number], strict=True)
-            ]
-            for number, own in versions.items()
-        }
-        optional = {module.number for module in self.modules() if module.optional}
-        settled = settle(self.policy(), name, attempts, optional, self._overrides(name))
-        final: dict[str, ModuleResult | None] = {}
-        for number, one in settled.items():
-            result = results[number][one.attempt]
-            if result is not None and pictures:
-                result = result.with_pictures(self._pictures(versions[number][one.attempt].key))
-            final[number] = result and replace(result, score=one.score)
-        return Student(name, found[0], final, settled)
+        return reading.student(self._db, name, pictures)
 
     def versions(self, name: str) -> dict[str, list[Version]]:
         """What a student handed in, by assignment and in order."""
-        found: dict[str, list[Version]] = {}
-        for number, key, files, time in self._db.execute(
-            "SELECT assignment, key, files, handed_in FROM grade"
-            " WHERE submission = ? ORDER BY assignment, place",
-            (name,),
-        ):
-            handed_in = None if time is None else datetime.fromisoformat(time)
-            found.setdefault(number, []).append(Version(key, files, handed_in))
-        return found
+        return reading.versions(self._db, name)
 
     def decide(
         self, student: str, assignment: str, points: float, reason: str, by: str
@@ -286,26 +215,6 @@ class Database:
                 return decision
         raise KeyError(number)
 
-    def _overrides(self, name: str) -> dict[str, Override]:
-        rows = decisions.all_of(self._db, name)
-        return {row.assignment: one for row in rows if (one := row.override()) is not None}
-
-    def _result(self, key: str) -> ModuleResult | None:
-        row = self._db.execute("SELECT result FROM work WHERE key = ?", (key,)).fetchone()
-        if row is None:
-            return None
-        try:
-            return ModuleResult.from_json(json.loads(row[0]))
-        except (ValueError, KeyError, TypeError) as error:
-            raise sqlite3.DatabaseError(f"the result {key[:12]} cannot be read") from error
-
-    def _pictures(self, key: str) -> dict[int, str]:
-        rows = self._db.execute("SELECT place, html FROM picture WHERE key = ?", (key,))
-        try:
-            return {i: zlib.decompress(html).decode() for i, html in rows}
-        except (ValueError, TypeError, zlib.error) as error:
-            raise sqlite3.DatabaseError(f"a picture of {key[:12]} cannot be read") from error
-
 
 def _rows(
     keys: Mapping[tuple[str, str], str | Sequence[Version]],
@@ -315,11 +224,6 @@ def _rows(
         for place, version in enumerate(versions):
             time = version.time.isoformat() if version.time else None
             yield submission, number, place, version.key, version.files, time
-
-
-@lru_cache(maxsize=4)
-def _policy(text: str) -> Policy:
-    return parse_policy(text, Path(POLICY)) if text else Policy()
 
 
 def _now() -> str:

@@ -31,13 +31,13 @@ def agree(found: Sequence[Change], order: Order, is_published: bool, console: Co
         for line in rest:
             say(f"    {line}")
     if not must_ask:
-        if order.regrade:
+        if order.regrade and not found:
             say("regraded: the grades stay as they are")
         return True
     students = len({change.student for change in ours})
     say(
-        f"{len(ours)} published grades of {students} students "
-        f"{'are' if may else 'would be'} changed by the grader, the rubric or the policy"
+        f"{len(ours)} published grades of {students} students {word} "
+        "though nothing new was handed in for them"
     )
     if lost:
         say(

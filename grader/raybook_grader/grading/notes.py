@@ -16,11 +16,11 @@ def policy_lines(
     if source is None:
         return
     file, _ = source
-    yield f"{file}: {len(policy.deadlines)} deadlines, the {policy.counts} hand-in counts"
+    yield f"{file}: deadlines: {len(policy.deadlines)}; the {policy.counts} hand-in counts"
     students = {submission.id for submission in submissions}
     for extension in policy.extensions:
         if extension.student not in students:
             yield f"{file}: an extension is for {extension.student!r}, who has handed in nothing"
     timeless = sum(submission.time is None for submission in submissions)
     if policy.deadlines and timeless:
-        yield f"{timeless} submissions have no time in their names and count as on time"
+        yield (f"submissions without a time in their names, which count as on time: {timeless}")

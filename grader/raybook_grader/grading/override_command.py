@@ -14,7 +14,7 @@ from ..errors import BadInput
 from ..jobs.progress import plain
 from ..reports import write_reports
 from .export import write_grades
-from .lock import locked
+from .lock import alone_in
 from .trouble import in_words
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def _override(arguments: argparse.Namespace) -> int:
         Database(arguments.out).close()
     with (
         in_words(arguments.out),
-        locked(arguments.out),
+        alone_in(arguments.out),
         closing(Database(arguments.out)) as database,
     ):
         if arguments.list:

@@ -27,7 +27,7 @@ from .export import NAME as GRADES
 from .export import write_grades
 from .job import Job, Worker
 from .learn import learn
-from .lock import locked
+from .lock import alone_in
 from .notes import policy_lines
 from .place import run_where_ordered
 from .plan import Order, choose_assignments, plan, refuse_unknown
@@ -56,7 +56,7 @@ def grade_class(course: Course, worker: Worker, order: Order, console: Console) 
     rules = order.rules(course)
     submissions, ignored = find_submissions(order.submissions, owned, rules.zone)
     refuse_unknown(order.regrade, submissions)
-    with locked(order.out), closing(Database(order.out, course.name)) as database:
+    with alone_in(order.out), closing(Database(order.out, course.name)) as database:
         for written in (order.out, order.out / "students"):
             sweep(written)
         before = snapshot(database)

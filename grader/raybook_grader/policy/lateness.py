@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from datetime import datetime, timedelta
 
-from .clock import days_after
+from ..submissions.clock import days_after
 from .model import Policy
 
 _DAY = timedelta(days=1)

@@ -10,10 +10,11 @@ from zoneinfo import ZoneInfo, ZoneInfoNotFoundError
 
 from ..course.table import Table
 from ..errors import BadInput
-from .clock import NoInstant, instant
+from ..submissions.clock import NoInstant, instant
+from ..submissions.find import RULES
 from .model import Counts, Extension, Late, Policy
 
-NAME = "course.toml"
+NAME = RULES
 _TIME = "a date and time such as 2026-11-20T23:59:59"
 _SIZE_LIMIT = 1 << 20
 

@@ -8,7 +8,7 @@ from datetime import datetime, timedelta
 from enum import StrEnum
 from zoneinfo import ZoneInfo
 
-from .clock import GREENWICH
+from ..submissions.clock import GREENWICH
 
 
 class Counts(StrEnum):

@@ -48,17 +48,16 @@ def told(settled: Settled, zone: ZoneInfo) -> list[str]:
 
 
 def _late(penalty: Penalty, zone: ZoneInfo) -> str:
-    plural = "s" if penalty.days_late > 1 else ""
-    free = f" {penalty.late_days} of them paid with late days." if penalty.late_days else ""
-    taken = (
-        f" {penalty.percent:g} % of the points are taken off"
-        + (f" ({penalty.points:g})." if penalty.points is not None else ".")
-        if penalty.percent
-        else " No points are taken off."
-    )
+    days = "1 day" if penalty.days_late == 1 else f"{penalty.days_late} days"
+    free = f", {penalty.late_days} of them covered by late days" if penalty.late_days else ""
+    if penalty.percent == 0:
+        taken = "Nothing is taken off."
+    else:
+        points = "" if penalty.points is None else f": {penalty.points:g} points"
+        taken = f"{penalty.percent:g} % are taken off{points}."
     return (
         f"Handed in {_clock(penalty.handed_in, zone)}, due {_clock(penalty.deadline, zone)}: "
-        f"{penalty.days_late} day{plural} late.{free}{taken}"
+        f"{days} late{free}. {taken}"
     )
 
 

@@ -10,12 +10,14 @@ from pathlib import Path
 from zoneinfo import ZoneInfo
 
 from ..errors import BadInput
-from ..policy import NAME as POLICY
-from ..policy.clock import GREENWICH
 from .archive import SUFFIXES, read_archive
+from .clock import GREENWICH
 from .folder import read_folder
 from .name import split_name
 from .submission import Submission, SubmittedFile, Unusable
+
+RULES = "course.toml"
+"""What the class's rules are called, which may lie among the submissions."""
 
 _BEGINNING = datetime.min.replace(tzinfo=UTC)
 
@@ -40,7 +42,7 @@ def find_submissions(
     ignored = [
         _text(entry.name)
         for entry in entries
-        if entry not in usable and not entry.name.startswith(".") and entry.name != POLICY
+        if entry not in usable and not entry.name.startswith(".") and entry.name != RULES
     ]
     named = [(entry, *split_name(folder, _stem(entry.name), zone)) for entry in usable]
     names = Counter(name for _, name, time in named if time is None)

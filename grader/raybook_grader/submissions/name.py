@@ -8,7 +8,7 @@ from pathlib import Path
 from zoneinfo import ZoneInfo
 
 from ..errors import BadInput
-from ..policy.clock import NoInstant, instant
+from .clock import NoInstant, instant
 
 _MARK = "--"
 _LIKE_A_TIME = re.compile(r"\d{4}-?\d\d-?\d\dT?")

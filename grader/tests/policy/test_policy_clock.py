@@ -7,9 +7,9 @@ from zoneinfo import ZoneInfo
 
 import pytest
 
-from raybook_grader.policy.clock import NoInstant, days_after, instant
 from raybook_grader.policy.lateness import days_late, due
 from raybook_grader.policy.model import Extension, Late, Policy
+from raybook_grader.submissions.clock import NoInstant, days_after, instant
 
 ZURICH = ZoneInfo("Europe/Zurich")
 DEADLINE = "2026-11-20T23:59:00"

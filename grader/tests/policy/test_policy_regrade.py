@@ -42,10 +42,10 @@ def state(out: Path) -> dict[str, bytes]:
 def break_picture_a(monkeypatch: pytest.MonkeyPatch, status: Status = Status.FAILED) -> None:
     """From now on the grader finds something else in picture a of assignment 01."""
 
-    def other(check, content, sources):  # type: ignore[no-untyped-def]
+    def other(check, content, workshop):  # type: ignore[no-untyped-def]
         if check.file == "01a.exr":
             return conclude(check, status, "otherwise")
-        return check_artefact(check, content, sources)
+        return check_artefact(check, content, workshop)
 
     monkeypatch.setattr(grading, "check_artefact", other)
 
@@ -61,7 +61,7 @@ def test_another_rubric_is_shown_before_it_counts(
     assert "    picture a: passed 4 -> passed 1" in held.out
     assert "s3 01" in held.out and "s3 01 pictures01: pass 10 -> pass 10" in held.out
     assert " 02 " not in held.out.split("would change", 1)[1]
-    assert "3 published grades of 3 students would be changed" in held.out
+    assert "3 published grades of 3 students would change though" in held.out
     assert "--apply applies it" in held.out and "grades:" not in held.out
     assert state(tmp_path / "out") == before
 
@@ -127,7 +127,7 @@ def test_regrade_is_done_anew_once_it_was_seen(
 
 def test_regrade_all(graded: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     break_picture_a(monkeypatch)
-    assert "3 published grades of 3 students would be" in graded("--regrade", "all").out
+    assert "3 published grades of 3 students would change" in graded("--regrade", "all").out
     assert graded("--regrade", "all", "--apply").code == 0
     assert grades(tmp_path / "out")["s3"]["score"] == 6
     assert graded("--regrade", "s9").code == 2

@@ -74,7 +74,7 @@ def picture(right: bool, seed: int = 0) -> bytes:
     return encode_exr(pixels(right, seed))
 
 
-def decode_here(files: Sequence[bytes], max_pixels: int) -> list[Any]:
+def decode_here(workshop: object, files: Sequence[bytes], max_pixels: int) -> list[Any]:
     """The pixels of such pictures without a process of their own, which takes longer."""
     right = {picture(True, ord(letter)) for letter in POINTS}
     return [pixels(file in right) for file in files]
