@@ -31,7 +31,8 @@ def parser() -> argparse.ArgumentParser:
     )
     commands = top.add_subparsers(metavar="COMMAND", required=True)
     for part in (
-        grading, override, exports, gradescope, similarity, judge, museum, calibration, literate, sandbox,
+        grading, override, exports, gradescope, similarity, judge, museum, calibration, literate,
+        sandbox,
     ):  # fmt: skip
         part.add_commands(commands)
     return top
