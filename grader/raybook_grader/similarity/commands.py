@@ -13,7 +13,7 @@ from ..checks.words import clean
 from ..course import load_course
 from ..errors import BadInput
 from ..jobs.progress import progress
-from ..submissions import Submission, find_submissions
+from ..submissions import Submission, find_submissions, latest
 from .settings import THRESHOLD
 
 if TYPE_CHECKING:
@@ -59,7 +59,8 @@ def _similarity(arguments: argparse.Namespace) -> int:
     from .search import search
 
     course = load_course(arguments.course.resolve())
-    ours, _ = find_submissions(arguments.submissions, course.sources)
+    # Two submissions of one student are alike; the earlier ones are not looked at.
+    ours = latest(find_submissions(arguments.submissions, course.sources)[0])
     earlier = _earlier(arguments.earlier, course.sources)
     try:
         arguments.out.mkdir(parents=True, exist_ok=True)
@@ -87,7 +88,7 @@ def _earlier(folders: Sequence[Path], owned: Sequence[str]) -> dict[str, list[Su
     found = {}
     for folder, name in zip(folders, names, strict=True):
         key = name if names.count(name) == 1 else str(folder)
-        found[key] = find_submissions(folder, owned)[0]
+        found[key] = latest(find_submissions(folder, owned)[0])
     return found
 
 

@@ -55,6 +55,11 @@ def find_submissions(
     return found, ignored
 
 
+def latest(submissions: Iterable[Submission]) -> list[Submission]:
+    """Of each student the last submission, of submissions as they were found."""
+    return list({submission.id: submission for submission in submissions}.values())
+
+
 def _refuse_unordered(folder: Path, found: Iterable[Submission]) -> None:
     """Fault of a student of whose submissions nobody can say which came first."""
     times: dict[str, set[datetime | None]] = {}

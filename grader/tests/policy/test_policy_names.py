@@ -12,7 +12,7 @@ from raybook_grader.course import Assignment, Limits
 from raybook_grader.errors import BadInput
 from raybook_grader.grading.plan import versions_of
 from raybook_grader.policy import Counts
-from raybook_grader.submissions import Submission, SubmittedFile, find_submissions
+from raybook_grader.submissions import Submission, SubmittedFile, find_submissions, latest
 
 ZURICH = ZoneInfo("Europe/Zurich")
 TEN = datetime(2026, 11, 20, 22, 10, tzinfo=UTC)
@@ -80,6 +80,8 @@ def test_they_come_in_the_order_of_their_times(tmp_path: Path) -> None:
     assert [name for name, _ in found(tmp_path, *names)] == ["a", "a", "b"]
     times = [s.time for s in find_submissions(tmp_path, [], ZURICH)[0][:2]]
     assert times == [datetime(2026, 11, 20, 22, 9, tzinfo=UTC), TEN]
+    last = latest(find_submissions(tmp_path, [], ZURICH)[0])
+    assert [(s.id, s.time) for s in last] == [("a", TEN), ("b", None)]
 
 
 def test_the_class_s_rules_are_no_stray_file(tmp_path: Path) -> None:
