@@ -12,6 +12,7 @@ from ..checks.words import clean
 from ..course import Course, load_course
 from ..database import Database
 from ..errors import BadInput
+from ..grading.trouble import in_words
 from .gradescope import VISIBILITIES
 from .write import FORMATS, Request, Written, check_request, write_export
 
@@ -98,7 +99,7 @@ def write_exports(out: Path, course: Course, requests: Sequence[Request]) -> boo
     if not requests:
         return True
     complete = True
-    with closing(Database(out)) as database:
+    with in_words(out), closing(Database(out)) as database:
         for request in requests:
             try:
                 _tell(request, write_export(database, out, course, request))
@@ -121,7 +122,7 @@ def _export(arguments: argparse.Namespace) -> int:
         submission=arguments.submission,
     )
     course = load_course(arguments.course.resolve())
-    with closing(Database(arguments.out)) as database:
+    with in_words(arguments.out), closing(Database(arguments.out)) as database:
         written = write_export(database, arguments.out, course, request)
     _tell(request, written)
     return 3 if written.unknown else 0

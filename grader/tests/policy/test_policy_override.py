@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import shutil
 from pathlib import Path
 
@@ -37,6 +38,8 @@ def test_it_is_final_and_shown(out: Path, grader: Command) -> None:
     assert "Set to 7.5 points by A. Meier; the grader found 4 points." in page
     assert "<script>alert" not in page and "&lt;script&gt;alert" in page
     assert "set by hand" in (out / "index.html").read_text()
+    assert grader("export", out, "--format", "csv", "--output", out / "x.csv").code == 0
+    assert next(csv.reader((out / "x.csv").open(newline="").readlines()[1:]))[:2] == ["s1", "7.5"]
 
 
 def test_it_survives_everything(out: Path, grader: Command, grade: Command) -> None:

@@ -106,7 +106,8 @@ def test_a_damaged_database_is_told(
         del content[len(content) // 2 :]
     file.write_bytes(content)
     damaged = file.read_bytes()
-    for done in (grade(), grader("report", tmp_path / "out")):
+    export = grader("export", tmp_path / "out", "--format", "csv")
+    for done in (grade(), grader("report", tmp_path / "out"), export):
         assert done.code == 1, done.out + done.err
         assert "grades.sqlite: " in done.err and "It is damaged" in done.err
     assert (tmp_path / "out" / "grades.json").read_bytes() == published
