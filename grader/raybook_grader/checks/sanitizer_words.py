@@ -17,18 +17,22 @@ _VOCABULARY = frozenset(
     re.findall(
         r"\S+",
         """
-    a above accessing address alignment an and applying argument as assumption at be been before
-    bool bound bounds by call cannot cast char constant deallocation declared does double element
-    end evaluates execution expression exponent failed float for function has having highest in
-    incorrect index indirectly infinity int into invalid is it its large left length load loaded
-    long lvalue member misaligned misbehaved nan negated negation negative never no non nonnull not
-    null object of offset one or out outside overflow overflowed passed passing pointer points
-    positive produced program prototype range reached reference represent representable
-    represented requires return returned returning right runtime shift short signed size specified
-    store sub that the to too type unreachable unsigned value values variable vla was which while
-    width with within without zero zeroed x bit bits 32 64 32-bit 64-bit double float struct union
-    array const byte bytes insufficient space
-    """,
+        a above access accessing addition address aligned alignment an and applying argument
+        arguments array as assumption at base be been before binding bit bits bool bound
+        bounds builtin by byte bytes call cannot cast changed char check clz const constant
+        control conversion ctz deallocation declared defined destination division does
+        double downcast during dynamic element end evaluates execution exponent expression
+        failed float flow for from function has having here highest implicit in incorrect
+        index indirectly infinity insufficient int integer integrity into invalid is it its
+        itself large left length load loaded located long lvalue member misaligned
+        misalignment misbehaved nan negate negated negation negative never no non nonnull
+        nonzero not null nullptr object of offset on one operation or out outside overflow
+        overflowed passed passing places pointer points positive produced program prototype
+        range reached reference represent representable represented requires return returned
+        returning right runtime shift short signed size space specified store struct sub
+        subtraction that the this to too type union unreachable unsigned upcast valid value
+        values variable virtual vla was which while width with within without x zero zeroed
+        """,
     )
 )
 """The words of UndefinedBehaviorSanitizer's own sentences."""

@@ -36,7 +36,9 @@ class Subject:
     assignment: Assignment
     module: ModuleObjects
     renderer: bytes
-    _programs: dict[tuple[str, Path], bytes] = field(default_factory=dict, repr=False)
+    _programs: dict[tuple[str, Path], bytes] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
     @property
     def limits(self) -> Limits:
