@@ -11,6 +11,8 @@ import io
 import re
 from collections.abc import Iterable, Sequence
 
+from ..visible import visible
+
 Value = str | float | None
 
 _FORMULA = re.compile("[=+\\-@\t\r\n\uff1d\uff0b\uff0d\uff20]")
@@ -27,6 +29,7 @@ def cell(value: Value) -> str:
         return number(value)
     if _NUMBER.fullmatch(value) or value in _PLAIN:
         return value
+    value = visible(value, keep="\n\t\r\u00a0")
     begins = value.lstrip(" \u00a0")
     return f"'{value}" if _FORMULA.match(begins) or _FORMULA.match(value) else value
 

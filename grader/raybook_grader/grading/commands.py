@@ -12,6 +12,7 @@ from rich.console import Console
 
 from ..course import load_course
 from ..database import Database
+from ..errors import BadInput
 from ..exports.commands import check_exports, export_list, write_exports
 from ..jobs.dask_client import ClusterLost, connect
 from ..jobs.progress import progress
@@ -113,6 +114,8 @@ def _grade(arguments: argparse.Namespace) -> int:
     course = load_course(root)
     check_exports(arguments.export)
     unsafe = _is_unsafe(arguments.unsafe, console)
+    if unsafe and arguments.scheduler is not None:
+        raise BadInput("--unsafe is for this machine only, expected no --scheduler beside it")
     if arguments.scheduler is not None:
         connect(arguments.scheduler).close()
     order = Order(

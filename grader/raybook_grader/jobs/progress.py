@@ -9,6 +9,8 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
+from ..visible import visible
+
 
 class Progressing(Protocol):
     """What a run tells: a step is done, or something is worth a line."""
@@ -34,7 +36,7 @@ def progress(console: Console, label: str, steps: int) -> Progressing:
 
 def plain(line: str) -> str:
     """A line that no name in it can break, reorder or colour."""
-    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in line)
+    return visible(line, keep="")
 
 
 class _Lines:

@@ -14,6 +14,7 @@ from ..grading.totals import totals
 from ..judge.viewer import viewer_assets
 from ..policy import told
 from ..scoring import Verdict
+from ..visible import visible
 from .class_view import class_view
 from .marks import mark_of
 from .names import page_name
@@ -84,11 +85,9 @@ def _environment() -> Environment:
 
 
 def _visible(value: object) -> object:
-    """A text without characters that clear a terminal, or hide and reorder others."""
-    if not isinstance(value, str) or isinstance(value, Markup):
-        return value
-    seen = (c if c.isprintable() or c in "\n\t" else "\N{REPLACEMENT CHARACTER}" for c in value)
-    return "".join(seen)
+    """Whatever a template shows; markup was made of text that was made visible before."""
+    is_text = isinstance(value, str) and not isinstance(value, Markup)
+    return visible(str(value)) if is_text else value
 
 
 def _points(value: float | None) -> str:

@@ -25,6 +25,7 @@ _CHECKOUT = (
     "scenes",
     "src",
 )
+EXPORTS = "csv,canvas,gradescope,json"
 HONEST = ("honest-right", "honest-wrong")
 
 
@@ -61,8 +62,8 @@ def grade_corpus(cases: Sequence[Case], top: Path) -> Graded:
                    "RAYBOOK_SECRET": CANARIES["environment"]}  # fmt: skip
 
     def grade(submissions: Path, out: Path) -> subprocess.CompletedProcess[str]:
-        command = [sys.executable, "-m", "raybook_grader", "grade", str(submissions),
-                   "--out", str(out), "--course", str(root)]  # fmt: skip
+        paths = [str(submissions), "--out", str(out), "--course", str(root)]
+        command = [sys.executable, "-m", "raybook_grader", "grade", *paths, "--export", EXPORTS]
         return subprocess.run(
             command, capture_output=True, text=True, errors="replace", check=False, env=environment
         )

@@ -17,7 +17,13 @@ CASES = [
         write=text(RIGHT),
         quick=True,
     ),
-    Case('=HYPERLINK("evil","marks")', "an id that is a formula", HARMLESS, write=text(RIGHT)),
+    Case(
+        '=HYPERLINK("evil","marks")',
+        "an id that is a formula",
+        HARMLESS,
+        write=text(RIGHT),
+        quick=True,
+    ),
     Case("@SUM(1+1)*cmd|' -C calc'!A0", "another formula", HARMLESS, write=text(RIGHT)),
     Case(
         "\x1b[2J\x1b]0;evil\x07cleared",

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import base64
+import csv
+import io
 import os
 from collections import Counter
 from pathlib import Path
@@ -68,10 +70,22 @@ def test_pages_hold_nothing_of_theirs_but_text(graded: Graded) -> None:
 
 def test_no_output_holds_control_characters(graded: Graded) -> None:
     """Terminal codes, and marks that hide or reorder text."""
-    readable = {n: c for n, c in graded.contents.items() if n.endswith((".html", ".json", ".csv"))}
-    for name, content in {**readable, "printed": graded.contents["printed"]}.items():
-        bad = {c for c in content.decode("utf-8") if not (c.isprintable() or c in "\n\t")}
-        assert bad - {"\u00a0"} == set(), name
+    kinds = (".html", ".json", ".csv", "printed")
+    readable = {n: c for n, c in graded.contents.items() if n.endswith(kinds)}
+    assert {Path(name).suffix for name in readable} == {".html", ".json", ".csv", ""}
+    for name, content in readable.items():
+        text = content.decode("utf-8").replace("\r\n", "\n")
+        bad = {c for c in text if not (c.isprintable() or c in "\n\t\u00a0")}
+        assert bad == set(), name
+
+
+def test_no_table_holds_a_formula(graded: Graded) -> None:
+    tables = {n: c.decode("utf-8") for n, c in graded.contents.items() if n.endswith(".csv")}
+    assert tables
+    for name, text in tables.items():
+        for row in csv.reader(io.StringIO(text)):
+            assert [c for c in row if c.startswith(("=", "+", "@", "\t", "\r"))] == [], name
+            assert len(row) > 1, name
 
 
 def test_canaries_would_be_found(tmp_path: Path) -> None:
