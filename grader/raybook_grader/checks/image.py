@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from ..course import ImageCheck
 from ..diagnosis.trace import Trace, trace_of_picture
+from ..judge.facts import facts_of_judgement
 from ..judge.image import ImageJudgement, judge_image
 from ..judge.pixels import Image
 from ..judge.reference import ReferenceStatistics
@@ -125,7 +126,8 @@ def _viewer(check: ImageCheck, judgement: ImageJudgement, reference: ReferenceSt
         reference.mean,
         mean,
         visible.flip_map,
-        check.name,
+        f"The mean of {judgement.pictures} pictures of {check.spp} samples a pixel, and the "
+        f"reference at {reference.spp}",
         delta_e=visible.colour.map,
-        assets=False,
+        facts=facts_of_judgement(judgement.bias, visible),
     )

@@ -38,7 +38,7 @@ class CheckResult:
 
     ``score`` is None only when the harness failed. All texts but ``picture`` are plain and may
     hold anything that a student wrote; ``picture`` is trusted HTML, made by
-    the judge, for a page that holds its `viewer_assets`.
+    the judge, for a page that holds its `VIEWER_STYLES` and `VIEWER_SCRIPTS`.
     """
 
     name: str

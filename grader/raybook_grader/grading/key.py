@@ -16,7 +16,7 @@ from ..submissions import SubmittedFile
 _PACKAGE = Path(__file__).resolve().parents[1]
 _HAS_A_SAY = (
     "cases.py", "checks", "course", "diagnosis", "errors.py", "files.py", "grading/module.py",
-    "grading/result.py", "judge", "kit.py", "museum", "probes.py", "sandbox", "scoring.py",
+    "grading/result.py", "judge", "kit.py", "museum", "page", "probes.py", "sandbox", "scoring.py",
     "submissions",
 )  # fmt: skip
 """Parts of the grader that a result depends on; of `literate` the stubs, which are hashed."""

@@ -11,11 +11,13 @@ from markupsafe import Markup
 
 from ..errors import BadInput
 from ..files import write_bytes
+from ..page import assets, environment
 from .compare import Comparison, compare, summary
 from .exr import UnusableImage, read_exr
-from .findings import first_pixel, percent
-from .pixels import CHANNELS, Image
-from .viewer import page_html, viewer_html
+from .facts import facts_of_pair
+from .findings import first_pixel
+from .pixels import Image
+from .viewer import VIEWER_SCRIPTS, VIEWER_STYLES, viewer_html
 
 if TYPE_CHECKING:
     # argparse has no public name for what add_subparsers() returns.
@@ -86,15 +88,18 @@ def _write_page(
             delta_e=n.colour.map,
             white=n.viewing.white,
             test_name="Test",
+            facts=facts_of_pair(n),
         )
-    page = page_html(
-        "compare.html",
-        comparison=result,
-        reference_path=str(arguments.reference),
-        test_path=str(arguments.test),
-        channels=list(zip(CHANNELS, n.channel_bias, strict=True)) if n else [],
-        percent=percent,
-        viewer=Markup(viewer),  # escaped where it was made
+    page = (
+        environment(__package__ or "")
+        .get_template("compare.html")
+        .render(
+            assets=assets(VIEWER_STYLES, VIEWER_SCRIPTS),
+            comparison=result,
+            reference_path=str(arguments.reference),
+            test_path=str(arguments.test),
+            viewer=Markup(viewer),  # escaped where it was made
+        )
     )
     content = page.encode("utf-8", "replace")
     try:

@@ -18,12 +18,13 @@ from .viewing import Viewing, viewing_of
 
 @dataclass(frozen=True)
 class ImageJudgement:
-    """`mean` is the mean of the first seeds' renders; None, as `visible`, at a wrong size."""
+    """`mean` is of the first `pictures` renders; None, as `visible`, at a wrong size."""
 
     bias: BiasVerdict
     visible: PerceptualError | None
     mean: Image | None
     score: float
+    pictures: int = 0
 
     def as_json(self) -> dict[str, Any]:
         """Plain values for a database, without pictures."""
@@ -66,4 +67,5 @@ def judge_image(
     same = None if twins is None else np.stack(twins(first)).astype(np.float32)
     viewing = viewing or viewing_of(reference.mean)
     visible = perceptual_error(stack, reference.mean, viewing, same)
-    return ImageJudgement(bias, visible, stack.mean(axis=0), score(visible.excess, bias.status))
+    points = score(visible.excess, bias.status)
+    return ImageJudgement(bias, visible, stack.mean(axis=0), points, len(first))

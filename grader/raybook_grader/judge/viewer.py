@@ -3,26 +3,31 @@
 It holds the pictures' own numbers, so that exposure and the values under the cursor are true.
 """
 
-import base64
-import functools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import jinja2
 import numpy as np
 from markupsafe import Markup
 
+from ..page import environment, visible
+from ..page.assets import File
 from .display import BLUE_RED, MAGMA, coloured, png_data_uri, tone_mapped
+from .numbers import packed
 from .pixels import Array, Image, Map, luminance
 from .tiles import spread, tile_means
 from .viewing import viewing_of
 
-MAX_SHOWN = 1 << 20  # pixels; a larger picture is shown reduced: 6 bytes a pixel, in base64
+MAX_SHOWN = 1 << 20  # pixels; a larger picture is shown reduced: 12 bytes a pixel, packed
 _BIAS_TILE = 8  # pixels: enough to see through the noise, few enough to see where
 _BIAS_SHOWN = 0.1  # the ends of the "darker or brighter" scale
-_HALF_MAX = 65504.0
-_HALF_NEEDS_WHITE = 0.1  # half floats keep 0.1 % of values down to 6e-5: eleven stops below this
+_SCALE_STEPS = 72  # pixels of a colour scale
+
+VIEWER_STYLES: tuple[File, ...] = ((__package__ or "", "viewer.css"),)
+VIEWER_SCRIPTS: tuple[File, ...] = tuple(
+    (__package__ or "", f"viewer{part}.js") for part in ("_numbers", "_paint", "_readout", "")
+)
+"""What a page with viewers needs, once."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +42,15 @@ class ErrorMap:
     colours: tuple[str, ...] = MAGMA
 
 
+@dataclass(frozen=True)
+class Fact:
+    """A number about two pictures, and what it means."""
+
+    name: str
+    value: str
+    meaning: str
+
+
 def viewer_html(
     reference: Image,
     test: Image,
@@ -46,90 +60,71 @@ def viewer_html(
     delta_e: Map | None = None,
     white: float | None = None,
     test_name: str = "Yours",
-    assets: bool = True,
+    facts: Sequence[Fact] = (),
 ) -> str:
-    """A `<figure>` that shows two pictures of one size and their error maps.
+    """A `<figure>` that shows two pictures of one size, their error maps and facts about them.
 
     `error_map` is FLIP's, `delta_e` Delta E ITP's. `white` is the radiance shown as white at
-    exposure 0 (default: from the reference). Everything is escaped. With several on a page, give
-    `assets` once.
+    exposure 0 (default: from the reference). Everything is escaped.
     """
     if reference.shape != test.shape or reference.shape[:2] != error_map.shape:
         raise ValueError(f"sizes differ: {reference.shape}, {test.shape}, {error_map.shape}")
     white = white or viewing_of(reference).white
+    test_name = visible(test_name)
     step = _reduction(error_map.shape)
     reference, test = _reduced(reference, step), _reduced(test, step)
-    flip = _reduced(error_map, step)
+    maps = _maps(reference, test, _reduced(error_map, step), delta_e, step)
+    names = [("Reference", reference), (test_name, test)]
+    template = environment(__package__ or "").get_template("viewer.html")
+    return template.render(
+        title=title,
+        step=step,
+        width=reference.shape[1],
+        height=reference.shape[0],
+        # Without a script, and before it has run, these are seen.
+        pictures=[(name, Markup(png_data_uri(tone_mapped(image, white)))) for name, image in names],
+        maps=[(m, _picture(m) if m is maps[0] else "", _scale(m)) for m in maps],
+        facts=facts,
+        data=_data(names, maps, white),
+    )
+
+
+def _maps(
+    reference: Image, test: Image, flip: Map, delta_e: Map | None, step: int
+) -> list[ErrorMap]:
     maps = [ErrorMap("FLIP", flip, 0.0, _scale_end(flip, (0.1, 0.2, 0.5, 1.0)))]
     if delta_e is not None:
         shown = _reduced(delta_e, step)
         end = _scale_end(shown, (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0))
         maps.append(ErrorMap("\N{GREEK CAPITAL LETTER DELTA}E ITP", shown, 0.0, end))
-    maps.append(_signed_map(reference, test))
-    return (viewer_assets() if assets else "") + _environment().get_template("viewer.html").render(
-        title=title,
-        step=step,
-        pictures=[
-            ("Reference", png_data_uri(tone_mapped(reference, white))),
-            (test_name, png_data_uri(tone_mapped(test, white))),
-        ],
-        maps=[(m, png_data_uri(coloured(m.values, m.low, m.high, m.colours))) for m in maps],
-        data=_data(reference, test, maps, white, test_name) | {"start": _worst_pixel(maps)},
-    )
-
-
-def viewer_assets() -> str:
-    """The style and script that `viewer_html` needs, once a page, before or after it."""
-    return _environment().get_template("viewer_assets.html").render()
-
-
-def page_html(template: str, **values: Any) -> str:
-    """Render one of this package's pages; values are escaped, those marked safe excepted."""
-    return _environment().get_template(template).render(**values)
-
-
-@functools.cache
-def _environment() -> jinja2.Environment:
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("raybook_grader.judge", "templates"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.globals["gradient"] = _gradient
-    environment.globals["source"] = lambda name: Markup(
-        environment.get_template(name).render()  # our own files
-    )
-    return environment
+    return [*maps, _signed_map(reference, test)]
 
 
 def _data(
-    reference: Image, test: Image, maps: Sequence[ErrorMap], white: float, test_name: str
+    pictures: Sequence[tuple[str, Image]], maps: Sequence[ErrorMap], white: float
 ) -> dict[str, Any]:
-    height, width = reference.shape[:2]
+    height, width = maps[0].values.shape
     return {
         "width": width,
         "height": height,
         "white": white,
-        "pictures": [
-            {"name": name, **_numbers(image, exact=white < _HALF_NEEDS_WHITE)}
-            for name, image in (("Reference", reference), (test_name, test))
-        ],
+        "pictures": [{"name": name, "data": packed(image)} for name, image in pictures],
         "maps": [
             {"name": m.name, "unit": m.unit, "low": m.low, "high": m.high}
-            | {"colours": m.colours, **_numbers(m.values)}
+            | {"colours": m.colours, "data": packed(m.values)}
             for m in maps
         ],
+        "start": _worst_pixel(maps),
     }
 
 
-def _numbers(values: Image | Map, exact: bool = False) -> dict[str, str]:
-    """Half floats, which keep three figures, or floats where those don't fit; base64."""
-    largest = np.abs(values[np.isfinite(values)]).max(initial=0.0)
-    kind = "<f4" if exact or largest > _HALF_MAX else "<f2"
-    raw = np.ascontiguousarray(values, dtype=np.dtype(kind)).tobytes()
-    return {"format": kind[1:], "data": base64.b64encode(raw).decode("ascii")}
+def _picture(shown: ErrorMap) -> Markup:
+    return Markup(png_data_uri(coloured(shown.values, shown.low, shown.high, shown.colours)))
+
+
+def _scale(shown: ErrorMap) -> Markup:
+    steps = np.linspace(0.0, 1.0, _SCALE_STEPS)[np.newaxis]
+    return Markup(png_data_uri(coloured(steps, 0.0, 1.0, shown.colours)))
 
 
 def _signed_map(reference: Image, test: Image) -> ErrorMap:
@@ -168,7 +163,3 @@ def _reduced(values: Image | Map, step: int) -> Image:
     planes: Array = np.moveaxis(np.atleast_3d(values).astype(np.float64), -1, 0)
     means = np.moveaxis(tile_means(planes, step), 0, -1).astype(np.float32)
     return means if values.ndim == 3 else means[..., 0]
-
-
-def _gradient(steps: Sequence[str]) -> str:
-    return "linear-gradient(to right, " + ", ".join(f"#{step}" for step in steps) + ")"
