@@ -102,7 +102,8 @@ def _add_report(subparsers: Subparsers) -> None:
     command = subparsers.add_parser(
         "report",
         help="write the reports of a graded class again",
-        description="Writes index.html and students/*.html from the results in DIR.",
+        description="Writes index.html for the instructor, and in students/ a page for each "
+        "submission and each of its modules, from the results in DIR.",
     )
     command.add_argument("out", metavar="DIR", type=Path, help="a folder that `grade` has written")
     command.set_defaults(handler=_report)

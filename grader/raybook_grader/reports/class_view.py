@@ -2,29 +2,53 @@
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from statistics import mean, median
 
-from ..checks.result import NO_FAULT
 from ..database import Module, Student
 from ..grading.result import ModuleResult
 from ..grading.totals import Totals, totals
 from ..policy import Settled
 from ..scoring import Verdict
-from .names import page_name
+from .findings import (
+    CommonFailure,
+    Fault,
+    KnownMistake,
+    Stuck,
+    common_failures,
+    faults,
+    known_mistakes,
+    stuck,
+)
+from .marks import mark_of
+from .names import module_page, page_name
+from .notices import UNSAFE, Notice
+
+TONES = {
+    "good": "pass",
+    "fair": "partial",
+    "bad": "fail",
+    "stopped": "stopped",
+    "none": "missing",
+    "ours": "internal-error",
+}
+"""The verdicts by what they look like: whatever stopped a program counts as one."""
 
 _BARS = 10
-_COMMONEST = 15
 
 
 @dataclass(frozen=True)
 class Row:
-    """A student's row in the grid; ``cells`` has one entry a module, None if never graded."""
+    """A student's row in the grid; ``cells`` has one entry a module, None if never graded.
+
+    ``pages`` are those of the modules, relative to the class page.
+    """
 
     student: str
     page: str
+    pages: tuple[str, ...]
     problem: str | None
     totals: Totals
     cells: tuple[ModuleResult | None, ...]
@@ -34,6 +58,23 @@ class Row:
     @property
     def has_internal_error(self) -> bool:
         return any(cell and cell.verdict is Verdict.INTERNAL_ERROR for cell in self.cells)
+
+    @property
+    def is_unsafe(self) -> bool:
+        """Some code of theirs ran without the sandbox."""
+        return any(cell is not None and cell.unsafe for cell in self.cells)
+
+    @property
+    def is_empty(self) -> bool:
+        """Nothing was handed in of what is graded."""
+        return all(cell is None or cell.verdict is Verdict.MISSING for cell in self.cells)
+
+    @property
+    def share(self) -> float | None:
+        """Of the required points, in per cent."""
+        if self.totals.score is None or not self.totals.max_score:
+            return None
+        return 100 * self.totals.score / self.totals.max_score
 
 
 @dataclass(frozen=True)
@@ -46,21 +87,13 @@ class Bar:
 
 
 @dataclass(frozen=True)
-class CommonFailure:
-    """One kind of failure with those who have it; ``checks`` are where it was met."""
+class ModuleSummary:
+    """How the class did in one module; ``counts`` are of `TONES`, in their order."""
 
     module: Module
-    checks: tuple[str, ...]
-    words: str
-    students: tuple[Row, ...]
-
-
-@dataclass(frozen=True)
-class Fault:
-    """A failure of the harness, to be mended by whoever runs it, and where it was met."""
-
-    told: str
-    places: tuple[tuple[Row, Module], ...]
+    counts: tuple[int, ...]
+    mean: float | None
+    """Of those that handed something in, in points."""
 
 
 @dataclass(frozen=True)
@@ -73,19 +106,27 @@ class ClassView:
     bars: tuple[Bar, ...]
     mean: float | None
     median: float | None
+    summaries: tuple[ModuleSummary, ...]
+    mistakes: tuple[KnownMistake, ...]
     failures: tuple[CommonFailure, ...]
+    stuck: tuple[Stuck, ...]
     faults: tuple[Fault, ...]
-    verdicts: dict[str, Counter[str]]
+    notices: tuple[Notice, ...]
+
+    @property
+    def empty(self) -> list[Row]:
+        return [row for row in self.rows if row.is_empty]
 
 
-def class_view(course: str, modules: Sequence[Module], students: Iterable[Student]) -> ClassView:
+def class_view(
+    course: str,
+    modules: Sequence[Module],
+    students: Iterable[Student],
+    notices: Iterable[Notice] = (),
+) -> ClassView:
     """Compute the page from results without pictures."""
     rows = sorted((_row(s, modules) for s in students), key=lambda r: not r.has_internal_error)
-    shares = [
-        100 * row.totals.score / row.totals.max_score
-        for row in rows
-        if row.totals.score is not None and row.totals.max_score
-    ]
+    shares = [row.share for row in rows if row.share is not None]
     return ClassView(
         course=course,
         modules=tuple(modules),
@@ -93,14 +134,12 @@ def class_view(course: str, modules: Sequence[Module], students: Iterable[Studen
         bars=_bars(shares),
         mean=mean(shares) if shares else None,
         median=median(shares) if shares else None,
-        failures=_failures(modules, rows),
-        faults=_faults(modules, rows),
-        verdicts={
-            module.number: Counter(
-                cell.verdict.value for row in rows if (cell := row.cells[i]) is not None
-            )
-            for i, module in enumerate(modules)
-        },
+        summaries=tuple(_summary(m, [r.cells[i] for r in rows]) for i, m in enumerate(modules)),
+        mistakes=known_mistakes(modules, rows),
+        failures=common_failures(modules, rows),
+        stuck=stuck(modules, rows),
+        faults=faults(modules, rows),
+        notices=(*notices, *([UNSAFE] if any(row.is_unsafe for row in rows) else [])),
     )
 
 
@@ -108,6 +147,7 @@ def _row(student: Student, modules: Sequence[Module]) -> Row:
     return Row(
         student=student.id,
         page=f"students/{page_name(student.id)}",
+        pages=tuple(f"students/{module_page(student.id, module)}" for module in modules),
         problem=student.problem,
         totals=totals(student, modules),
         cells=tuple(student.results.get(module.number) for module in modules),
@@ -129,37 +169,14 @@ def _bars(shares: Sequence[float]) -> tuple[Bar, ...]:
     return tuple(Bar(i * width, (i + 1) * width, counts[i]) for i in range(_BARS))
 
 
-def _failures(modules: Sequence[Module], rows: Sequence[Row]) -> tuple[CommonFailure, ...]:
-    """The kinds of failure that most students have, each counted once a student and module."""
-    found: dict[tuple[Module, str], dict[str, Row]] = defaultdict(dict)
-    checks: dict[tuple[Module, str], dict[str, None]] = defaultdict(dict)
-    for row, module, result in _results(modules, rows):
-        for check in result.checks:
-            if check.status not in NO_FAULT:
-                kind = module, check.fingerprint or check.status.value
-                found[kind][row.student] = row
-                checks[kind][check.name] = None
-    common = sorted(found, key=lambda kind: (-len(found[kind]), kind[0].number, kind[1]))
-    return tuple(
-        CommonFailure(kind[0], tuple(checks[kind]), kind[1], tuple(found[kind].values()))
-        for kind in common[:_COMMONEST]
+def _summary(module: Module, cells: Sequence[ModuleResult | None]) -> ModuleSummary:
+    graded = [cell for cell in cells if cell is not None]
+    counts = Counter(mark_of(cell.verdict).tone for cell in graded)
+    scores = [
+        cell.score
+        for cell in graded
+        if cell.score is not None and cell.verdict is not Verdict.MISSING
+    ]
+    return ModuleSummary(
+        module, tuple(counts[tone] for tone in TONES), mean(scores) if scores else None
     )
-
-
-def _faults(modules: Sequence[Module], rows: Sequence[Row]) -> tuple[Fault, ...]:
-    """The faults of the harness, those that most modules met first."""
-    found: dict[str, list[tuple[Row, Module]]] = defaultdict(list)
-    for row, module, result in _results(modules, rows):
-        if result.verdict is Verdict.INTERNAL_ERROR:
-            found[result.traceback or result.message].append((row, module))
-    faults = [Fault(told, tuple(places)) for told, places in found.items()]
-    return tuple(sorted(faults, key=lambda fault: -len(fault.places)))
-
-
-def _results(
-    modules: Sequence[Module], rows: Sequence[Row]
-) -> Iterator[tuple[Row, Module, ModuleResult]]:
-    for row in rows:
-        for module, result in zip(modules, row.cells, strict=True):
-            if result is not None:
-                yield row, module, result

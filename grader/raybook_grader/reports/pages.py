@@ -2,93 +2,100 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import Template
 from markupsafe import Markup
 
-from ..database import Database, Student
+from ..database import Database, Module, Student
 from ..files import write_text
-from ..grading.totals import totals
-from ..judge.viewer import viewer_assets
-from ..policy import told
+from ..judge.viewer import VIEWER_SCRIPTS, VIEWER_STYLES
+from ..page import assets, environment
+from ..page.assets import File
 from ..scoring import Verdict
-from ..visible import visible
-from .class_view import class_view
+from .class_view import TONES, class_view
 from .marks import mark_of
-from .names import page_name
+from .notices import Notice
+from .student_view import StudentView, student_view
+from .words import KINDS, STATUSES, VERDICTS, parts_of
 
 INDEX = "index.html"
+STUDENTS = "students"
+_HERE = __package__ or ""
+_STUDENT: tuple[File, ...] = ((_HERE, "student.css"),)
+_CLASS: tuple[File, ...] = ((_HERE, "class.css"),)
+_GRID: tuple[File, ...] = ((_HERE, "class.js"),)
 
 
-def write_reports(database: Database, folder: Path) -> Path:
-    """Write index.html and students/*.html; the pages of submissions that are gone go too.
+def write_reports(database: Database, folder: Path, notices: Sequence[Notice] = ()) -> Path:
+    """Write index.html for the instructor, and in students/ a page for each submission and each
+    of its modules; the pages of what is gone go too. ``notices`` stand on every page.
 
     Returns the class page. Each page is complete or absent, and pages of one state of the
     database are the same bytes whenever they are written.
     """
-    environment = _environment()
     course, modules, zone = database.course(), database.modules(), database.policy().zone
-    pages = folder / "students"
-    pages.mkdir(exist_ok=True)
-    template = environment.get_template("student.html")
+    top = folder / STUDENTS
+    top.mkdir(exist_ok=True)
     written = set()
     for student in database.students(pictures=True):
-        name = page_name(student.id)
-        page = template.render(
-            course=course,
-            student=student,
-            modules=modules,
-            totals=totals(student, modules),
-            unsafe=_is_unsafe([student]),
-            reasons={number: told(one, zone) for number, one in student.settled.items()},
-            viewer_assets=viewer_assets() if _has_picture(student) else "",
-        )
-        write_text(pages / name, page)
-        written.add(name)
-    for old in pages.glob("*.html"):
-        if old.name not in written:
-            old.unlink()
-    unsafe = _is_unsafe(database.students())
-    view = class_view(course, modules, database.students())
+        view = student_view(course, student, modules, zone, notices)
+        for name, page in student_pages(view):
+            (top / name).parent.mkdir(exist_ok=True)
+            write_text(top / name, page)
+            written.add(top / name)
+    _remove_others(top, written)
     index = folder / INDEX
-    write_text(index, environment.get_template("class.html").render(view=view, unsafe=unsafe))
+    write_text(index, class_page(course, modules, database.students(), notices))
     return index
 
 
-def _has_picture(student: Student) -> bool:
-    results = [result for result in student.results.values() if result is not None]
-    return any(check.picture for result in results for check in result.checks)
+def class_page(
+    course: str,
+    modules: Sequence[Module],
+    students: Iterable[Student],
+    notices: Sequence[Notice] = (),
+) -> str:
+    """The text of the instructor's page."""
+    view = class_view(course, modules, students, notices)
+    return _template("class.html").render(view=view, assets=assets(_CLASS, _GRID))
 
 
-def _is_unsafe(students: Iterable[Student]) -> bool:
-    """Whether any result was made without the sandbox."""
-    return any(result and result.unsafe for s in students for result in s.results.values())
+def student_pages(view: StudentView) -> Iterator[tuple[str, str]]:
+    """Names, relative to the folder of all students, and texts."""
+    yield view.page, _template("student.html").render(student=view, assets=assets(_STUDENT))
+    for at, module in enumerate(view.modules):
+        has_picture = module.has_picture
+        yield (
+            module.page,
+            _template("module.html").render(
+                student=view,
+                view=module,
+                previous=view.modules[at - 1] if at else None,
+                next=view.modules[at + 1] if at + 1 < len(view.modules) else None,
+                assets=assets((*VIEWER_STYLES, *_STUDENT), VIEWER_SCRIPTS)
+                if has_picture
+                else assets(_STUDENT),
+            ),
+        )
 
 
-def _environment() -> Environment:
-    environment = Environment(
-        loader=PackageLoader(__package__ or "", "templates"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        finalize=_visible,
-    )
-    environment.filters["points"] = _points
-    environment.filters["mark"] = mark_of
-    environment.filters["verdict"] = Verdict
+def _remove_others(top: Path, written: set[Path]) -> None:
+    for page in [*top.glob("*.html"), *top.glob("*/*.html")]:
+        if page not in written:
+            page.unlink()
+    for folder in top.iterdir():
+        if folder.is_dir() and not folder.is_symlink() and not any(folder.iterdir()):
+            folder.rmdir()
+
+
+def _template(name: str) -> Template:
+    made = environment(_HERE)
+    made.filters["mark"] = mark_of
+    made.filters["verdict"] = Verdict
+    made.filters["parts"] = parts_of
     # The judge makes its pictures from numbers alone.
-    environment.filters["trusted"] = Markup
-    return environment
-
-
-def _visible(value: object) -> object:
-    """Whatever a template shows; markup was made of text that was made visible before."""
-    is_text = isinstance(value, str) and not isinstance(value, Markup)
-    return visible(str(value)) if is_text else value
-
-
-def _points(value: float | None) -> str:
-    return "?" if value is None else f"{value:g}"
+    made.filters["trusted"] = Markup
+    made.globals |= {"VERDICTS": VERDICTS, "STATUSES": STATUSES, "KINDS": KINDS, "TONES": TONES}
+    return made.get_template(name)
