@@ -27,8 +27,8 @@ _VERBATIM = re.compile(
 _TOOLS = re.compile(
     r"grader/(raybook_grader/(?:(?:__init__|errors|files|handed_out)\.py|(?:student|course)/.+"
     r"|checks/(?:__init__|artefacts|diagnostics|essence|unity|words)\.py"
-    r"|judge/(?:__init__|bias|differences|display|evidence|exr|findings|pixels|reference|refusal"
-    r"|thresholds|tiles|viewing)\.py))"
+    r"|judge/(?:__init__|bias|differences|display|evidence|exr|exr_rules|findings|pixels|reference"
+    r"|refusal|thresholds|tiles|viewing)\.py))"
 )
 _TOOLS_FOLDER = "tools"
 _OF_ASSIGNMENT = re.compile(r"assignment\.toml|test_\w+\.c|handout\.md|hints\.md")
