@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from ..course import ImageCheck
 from ..diagnosis.trace import Trace, trace_of_picture
@@ -21,6 +22,10 @@ from .trouble import Trouble
 
 _FRESH = 1000
 """The second look's seeds are the first look's plus this."""
+
+_MOST_CPU_SECONDS = 12.0
+"""For one render, where the assignment would allow more. The references take half a second at most,
+right and slow modules two or three: this stops only what tests everything against everything."""
 
 _KINDS = {
     "size": "picture of a wrong size",
@@ -66,11 +71,13 @@ def _render(subject: Subject, picture: Picture, seeds: Sequence[int]) -> list[Im
 
 
 def _render_one(subject: Subject, picture: Picture, seed: int) -> bytes:
+    usual = subject.limits
     result = subject.run(
         subject.renderer,
         picture.arguments(seed),
         binds=scene_binds(subject.workshop.course.root, picture.scene),
         collect=[PICTURE],
+        limits=replace(usual, cpu_seconds=min(usual.cpu_seconds, _MOST_CPU_SECONDS)),
     )
     if result.ok and PICTURE in result.files:
         return result.files[PICTURE]
