@@ -14,6 +14,7 @@ import argparse
 import json
 import os
 import resource
+import shlex
 import shutil
 import subprocess
 import sys
@@ -70,7 +71,7 @@ def main() -> int:
     ]
     students = make_students(course, assignments, arguments.students, arguments.seed)
     submissions, grades = arguments.out / "submissions", arguments.out / "grades"
-    shutil.rmtree(arguments.out, ignore_errors=True)
+    _clear(arguments.out)
     forms = write_students(students, submissions, arguments.seed)
     modules, different = _count(submissions, assignments)
     print(f"class: {', '.join(f'{count} {form}' for form, count in sorted(forms.items()))}")
@@ -89,8 +90,21 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--assignment", metavar="LIST", type=lambda text: text.split(","))
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--out", type=Path, default=CHECKOUT / "build" / "class")
-    parser.add_argument("grade", nargs="*", help="after --: further arguments of `grade`")
+    parser.add_argument(
+        "--grade", metavar="ARGS", type=shlex.split, default=["--export", "csv,gradescope"],
+        help='further arguments of `grade` (default: "--export csv,gradescope")',
+    )  # fmt: skip
     return parser.parse_args()
+
+
+def _clear(out: Path) -> None:
+    """An empty folder; only what an earlier run has made is removed."""
+    mark = out / ".made-up-class"
+    if out.exists() and any(out.iterdir()) and not mark.is_file():
+        sys.exit(f"--out {out}: holds something else, expected an empty or a new folder")
+    shutil.rmtree(out, ignore_errors=True)
+    out.mkdir(parents=True)
+    mark.touch()
 
 
 def _count(submissions: Path, assignments: Sequence[Assignment]) -> tuple[int, int]:
