@@ -11,6 +11,7 @@ there). Then the class is graded by the real command, and every single score is 
 from __future__ import annotations
 
 import argparse
+import csv
 import json
 import os
 import resource
@@ -80,7 +81,7 @@ def main() -> int:
     judged = _judge_alone(students, arguments.jobs)
     spent = _grade(submissions, grades, assignments, arguments)
     _tell_speed(spent, modules, different)
-    return _compare(students, judged, grades / "grades.json")
+    return _compare(students, judged, grades)
 
 
 def _arguments() -> argparse.Namespace:
@@ -173,28 +174,48 @@ def _tell_speed(spent: Spent, modules: int, different: int) -> None:
     )
 
 
-def _compare(students: Sequence[Student], judged: Mapping[str, float | None], grades: Path) -> int:
-    values = json.loads(grades.read_text(encoding="utf-8"))
-    found = {
+def _compare(students: Sequence[Student], judged: Mapping[str, float | None], out: Path) -> int:
+    """Every score in grades.json, and in the table of the exports if there is one."""
+    found = {"grades.json": _graded(out / "grades.json")}
+    table = out / "exports" / "grades.csv"
+    if table.is_file():
+        found["exports/grades.csv"] = _exported(table)
+    bad = 0
+    for name, scores in found.items():
+        pairs = [
+            Difference(student.name, version.name, student.score(number, judged), score)
+            for student in students
+            for number, version in student.modules.items()
+            for score in [scores.get((student.name, number))]
+        ]
+        wrong = [pair for pair in pairs if pair.foretold is None or pair.foretold != pair.found]
+        for pair in wrong[:_SHOWN]:
+            print(pair)
+        print(f"{name}: {len(pairs) - len(wrong)} of {len(pairs)} scores as foretold")
+        bad += len(wrong) + (len(scores) != len(pairs))
+    return 1 if bad else 0
+
+
+def _graded(file: Path) -> Mapping[tuple[str, str], float | None]:
+    """Scores by student and assignment."""
+    values = json.loads(file.read_text(encoding="utf-8"))
+    return {
         (submission["id"], module["assignment"]): module["score"]
         for submission in values["submissions"]
         for module in submission["modules"]
     }
-    pairs = [
-        Difference(
-            student.name,
-            version.name,
-            student.score(number, judged),
-            found.get((student.name, number)),
-        )
-        for student in students
-        for number, version in student.modules.items()
-    ]
-    wrong = [pair for pair in pairs if pair.foretold is None or pair.foretold != pair.found]
-    for pair in wrong[:_SHOWN]:
-        print(pair)
-    print(f"{len(pairs) - len(wrong)} of {len(pairs)} scores as foretold")
-    return 1 if wrong or len(found) != len(pairs) else 0
+
+
+def _exported(file: Path) -> Mapping[tuple[str, str], float | None]:
+    """The same from a table, whose columns are called "01 triangle"."""
+    with file.open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    return {
+        (row["submission"], column.split()[0]): float(score) if score else None
+        for row in rows
+        for column, score in row.items()
+        if column[:2].isdecimal() and not column.endswith(" verdict")
+    }
 
 
 def _clock() -> Spent:
