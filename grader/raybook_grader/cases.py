@@ -11,8 +11,9 @@ from .probes import Failure
 
 
 def number(x: float) -> str:
-    """The shortest text that gives this single-precision number again."""
-    return str(np.float32(x)).removesuffix(".0")
+    """The shortest text that gives this single-precision number again; beyond its range "inf"."""
+    with np.errstate(over="ignore"):
+        return str(np.float32(x)).removesuffix(".0")
 
 
 def point(a: NDArray[np.float64]) -> str:

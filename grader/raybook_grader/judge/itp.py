@@ -47,8 +47,11 @@ def _absolute_bt2020(image: Image, white: float) -> Array:
 
 @functools.cache
 def _colour() -> ModuleType:
-    """colour-science, late: it takes half a second, and warns of each library it could use."""
-    with warnings.catch_warnings():
+    """colour-science, late: it takes half a second, and warns of each library it could use.
+
+    It also changes how NumPy prints numbers everywhere, which would change what students read.
+    """
+    with warnings.catch_warnings(), np.printoptions():
         warnings.simplefilter("ignore")
         import colour
     return colour

@@ -1,5 +1,7 @@
 """FLIP without noise, Delta E ITP, and the score."""
 
+import subprocess
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -81,6 +83,17 @@ def test_delta_e_itp_of_known_colours() -> None:
     assert found.mean == pytest.approx(720 * (pq(203) - pq(100)), rel=1e-3)
     assert found.p95 == pytest.approx(found.mean)
     assert colour_difference(REFERENCE.mean, REFERENCE.mean, VIEWING.white).map.max() == 0
+
+
+def test_numbers_are_told_the_same_after_a_picture_was_judged() -> None:
+    """The library changes how NumPy prints; a student must not read other digits for that."""
+    program = (
+        "import numpy as np; from raybook_grader.judge import itp; from raybook_grader.cases import"
+        " number; flat = np.full((8, 8, 3), 0.5, np.float32); before = number(1 / np.pi);"
+        " itp.colour_difference(flat, flat, 1.0); print(before, number(1 / np.pi))"
+    )
+    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert said.stdout.split() == ["0.31830987", "0.31830987"], said.stderr
 
 
 def test_judging_caps_what_is_biased() -> None:

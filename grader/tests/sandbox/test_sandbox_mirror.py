@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -16,8 +18,18 @@ from raybook_grader.sandbox.mirror import Mirror
 AS_ROOT = pytest.mark.skipif(os.geteuid() != 0, reason="only root's boxes run as nobody")
 
 
-def leftovers() -> set[Path]:
-    return set(Path("/tmp").glob("raybook-box-*"))
+@pytest.fixture
+def scratch(monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """Where copies go, for this test alone: others may run beside it."""
+    with tempfile.TemporaryDirectory(prefix="mirror-", dir="/tmp") as folder:
+        Path(folder).chmod(0o755)
+        monkeypatch.setenv("TMPDIR", folder)
+        monkeypatch.setattr(tempfile, "tempdir", folder)
+        yield Path(folder)
+
+
+def leftovers(scratch: Path) -> list[Path]:
+    return list(scratch.glob("raybook-box-*"))
 
 
 @pytest.fixture
@@ -36,8 +48,9 @@ def cat(box: Box, hidden: Path, name: str) -> bytes:
     return box.run(["cat", f"/bound/{name}"], binds={"/bound": hidden}).stdout
 
 
-def test_unreachable_folder_is_readable_inside_and_always_fresh(hidden: Path) -> None:
-    before = leftovers()
+def test_unreachable_folder_is_readable_inside_and_always_fresh(
+    hidden: Path, scratch: Path
+) -> None:
     with Box() as box:
         assert cat(box, hidden, "deep/a.txt") == b"first"
         (hidden / "deep" / "a.txt").write_text("second")
@@ -45,7 +58,8 @@ def test_unreachable_folder_is_readable_inside_and_always_fresh(hidden: Path) ->
         (hidden / "b.txt").write_text("new")
         assert cat(box, hidden, "b.txt") == b"new"
         assert cat(box, hidden, "link") == b""
-    assert leftovers() == before
+        assert len(leftovers(scratch)) == 1
+    assert leftovers(scratch) == []
 
 
 @AS_ROOT
@@ -69,20 +83,20 @@ def test_unchanging_folders_are_looked_at_once(hidden: Path) -> None:
 
 
 @AS_ROOT
-def test_leftovers_of_a_killed_run_are_removed(hidden: Path) -> None:
-    before = leftovers()
+def test_leftovers_of_a_killed_run_are_removed(hidden: Path, scratch: Path) -> None:
     make = (
         "import sys, os, signal; from pathlib import Path;"
         "from raybook_grader.sandbox.mirror import Mirror;"
         "m = Mirror(); m.readable(Path(sys.argv[1])); os.kill(os.getpid(), signal.SIGKILL)"
     )
     subprocess.run([sys.executable, "-c", make, str(hidden)], check=False, env=with_package())
-    assert len(leftovers() - before) == 1
+    (dead,) = leftovers(scratch)
     mirror = Mirror()
     mirror.readable(hidden)
-    assert len(leftovers() - before) == 1  # its own; the dead one's is gone
+    (its_own,) = leftovers(scratch)
+    assert its_own != dead
     mirror.close()
-    assert leftovers() <= before
+    assert leftovers(scratch) == []
 
 
 def test_this_machine_is_well() -> None:
