@@ -33,7 +33,7 @@ def owner(test: str) -> str:
 
 @functools.cache
 def words(target: str) -> list[str]:
-    return shlex.split(make("-s", target, "OPT=debug"))
+    return shlex.split(make("-s", target, "OPT=debug").splitlines()[-1])
 
 
 @functools.cache
