@@ -9,11 +9,12 @@ import hashlib
 import os
 import shlex
 import subprocess
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
 from ..errors import BadInput
+from ..files import locked
 from ..literate.tree import load_tree
 
 # A make around us has settings of its own, which the reference must not have.
@@ -32,14 +33,21 @@ def _with_stubs(root: Path, stubs: frozenset[str]) -> Path:
     key = hashlib.sha256(" ".join(sorted(stubs)).encode()).hexdigest()[:16]
     folder = root / "build" / "expected" / f"stubs-{key}"
     folder.mkdir(parents=True, exist_ok=True)
-    own = _stub_objects(root, folder, stubs)
+    with locked(folder / ".lock"):
+        return _link(root, folder, _stub_objects(root, folder, stubs))
+
+
+def _link(root: Path, folder: Path, own: Mapping[str, str]) -> Path:
+    """The program in a folder, with these objects in place of the reference's."""
     objects = _make(root, "-s", "list-objects").split()
     objects.append(str(Path(objects[0]).parents[1] / "main.o"))
     linked = [own.get(_module(path), path) for path in objects]
     compiler, *_ = shlex.split(_make(root, "-s", "list-compiler"))
     libraries = shlex.split(_make(root, "-s", "list-libraries"))
-    program = folder / "raybook"
-    _run([compiler, "-fopenmp", *linked, *libraries, "-o", str(program)], root)
+    program, aside = folder / "raybook", folder / ".raybook.part"
+    # The program that is there may be running.
+    _run([compiler, "-fopenmp", *linked, *libraries, "-o", str(aside)], root)
+    aside.replace(program)
     return program
 
 
@@ -64,7 +72,8 @@ def _module(path: str) -> str:
 def _make(root: Path, *words: str) -> str:
     environment = {k: v for k, v in os.environ.items() if k not in _SETTINGS}
     command = ["make", f"-j{os.cpu_count() or 1}", "--no-print-directory", "CHECK=yes", *words]
-    return _run(command, root, environment)
+    with locked(root / "build" / ".make.lock"):
+        return _run(command, root, environment)
 
 
 def _run(command: Sequence[str], root: Path, environment: dict[str, str] | None = None) -> str:
