@@ -53,6 +53,25 @@ def describe(arguments: argparse.Namespace, objects: list[Path]) -> dict[str, ob
     }
 
 
+def contents(folder: Path) -> dict[Path, bytes]:
+    """Every file below a folder."""
+    files = (path for path in folder.rglob("*") if path.is_file())
+    return {path.relative_to(folder): path.read_bytes() for path in files}
+
+
+def put_in_place(fresh: Path, out: Path) -> None:
+    """Replaces a kit at once and as a whole; one that is the same stays, as it may be in use."""
+    old = out.with_name(f"{fresh.name}.old")
+    if not out.exists():
+        fresh.rename(out)
+    elif contents(fresh) == contents(out):
+        shutil.rmtree(fresh)
+    else:
+        out.rename(old)
+        fresh.rename(out)
+        shutil.rmtree(old)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--objects", type=Path, required=True)
@@ -66,8 +85,7 @@ def main() -> None:
     copy_tree(Path("src"), fresh / "include", ".h")
     text = json.dumps(describe(arguments, objects), indent=1)
     (fresh / "kit.json").write_text(text, encoding="utf-8")
-    shutil.rmtree(arguments.out, ignore_errors=True)
-    fresh.rename(arguments.out)
+    put_in_place(fresh, arguments.out)
 
 
 if __name__ == "__main__":

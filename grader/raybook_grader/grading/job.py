@@ -16,7 +16,12 @@ from ..sandbox import make_box
 from ..submissions import SubmittedFile
 from .key import Keys
 from .module import ModuleGrader
-from .result import ModuleResult
+from .result import ModuleResult, internal_error
+
+_REPLACED = (
+    "the reference was built anew while this was graded with it; this is not your doing. "
+    "The same command grades it again"
+)
 
 
 @dataclass(frozen=True)
@@ -39,18 +44,33 @@ class Worker:
 
     def workshop(self) -> Workshop:
         kit = load_kit(self.kit)
-        # Nobody makes the kit anew in the middle of a run: its files are looked at once.
+        # Its files are looked at once; what is graded with another kit than this is thrown away.
         box = make_box(self.unsafe, [kit.include, kit.folder / "objects"])
         return Workshop(load_course(self.root), kit, box)
 
     def __call__(self) -> Callable[[Job], ModuleResult]:
+        seen = _seen(self.kit)
         workshop = self.workshop()
         keys = Keys(workshop.course, workshop.kit, self.unsafe)
         known = cache(lambda assignment: load_known(keys.known_file(assignment)))
         grader = ModuleGrader(workshop, References(workshop), known)
 
         def grade(job: Job) -> ModuleResult:
-            result = grader.grade(workshop.course.assignment(job.assignment), job.files)
+            assignment = workshop.course.assignment(job.assignment)
+            result = grader.grade(assignment, job.files)
+            # A program linked while the kit's files go away may miss some: that says nothing
+            # about a student.
+            if _seen(self.kit) != seen or keys.key(assignment, job.files) != job.key:
+                return internal_error(_REPLACED, f"{self.kit} is not what it was")
             return replace(result, unsafe=self.unsafe)
 
         return grade
+
+
+def _seen(kit: Path) -> tuple[int, int] | None:
+    """What tells this kit from the next that `make kit` puts in its place."""
+    try:
+        found = (kit / "kit.json").stat()
+    except FileNotFoundError:
+        return None
+    return found.st_ino, found.st_ctime_ns

@@ -37,6 +37,7 @@ def _hidden(name: str) -> ModuleType:
         _oracle(oracle)
     return sys.modules[name]
 
+
 bench = bench_fixture(ASSIGNMENT)
 
 

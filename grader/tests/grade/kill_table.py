@@ -154,7 +154,8 @@ def decide(out: Path) -> None:
 
 def undisturbed(place: Place) -> tuple[Found, Found, float]:
     """The two results to expect, from the real command; and how long a fork of it takes."""
-    subprocess.run(command(*place.first), check=True, capture_output=True)
+    done = subprocess.run(command(*place.first), capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr + told_of_faults(place.first)
     first = look(place.out)
     assert len(first.work) == 2 * STUDENTS and first.published
     decide(place.out)
@@ -195,7 +196,17 @@ def start(arguments: list[str]) -> int:
 def finish(arguments: list[str]) -> None:
     """The command to its end."""
     _, status = os.waitpid(start(arguments), 0)
-    assert status == 0, f"the run ended with status {status}"
+    assert status == 0, f"the run ended with status {status}{told_of_faults(arguments)}"
+
+
+def told_of_faults(arguments: list[str]) -> str:
+    """What the grader says of its own faults in an output folder."""
+    out = Path(arguments[arguments.index("--out") + 1])
+    if not (out / "grades.sqlite").is_file():
+        return ""
+    with closing(sqlite3.connect(out / "grades.sqlite")) as database:
+        rows = database.execute("SELECT result FROM work WHERE final = 0").fetchall()
+    return "".join(f"\n{json.loads(text).get('traceback')}" for (text,) in rows)
 
 
 def killed(arguments: list[str], out: Path, source: random.Random, seconds: float) -> bool:
