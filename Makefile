@@ -45,7 +45,7 @@ test: ## every test: format, C (Unity, also with sanitizers), Python, end to end
 	@$(MAKE) unit-tests
 	@$(MAKE) unit-tests OPT=asan
 	@$(MAKE) -s $(program) build/meshes/done compile_commands.json kit
-	@$(python) -m pytest -q $(ARGS)
+	@$(python) -m pytest -q -n auto --dist loadfile $(ARGS)
 
 format: ## writes the C files in the house style (.clang-format)
 	@clang-format -i $(c_files)
