@@ -28,15 +28,22 @@ uint32_t scramble_permute(uint32_t i, uint32_t count, uint32_t hash)
     return (uint32_t)(((uint64_t)i + hash) % count);
 }
 
+/* The generator matrix is Pascal's triangle modulo 2, which repeats itself in
+ * its halves: with P the triangle of half the size it is
+ *
+ *     P P
+ *     0 P
+ *
+ * So one half of the bits is added (modulo 2) to the other, and then each half
+ * is treated in the same way; all quarters at once, all eighths, and so on. */
 uint32_t scramble_sobol_second(uint32_t i)
 {
-    uint32_t x = 0;
-    for (uint32_t column = 1u << 31; i != 0; i >>= 1) {
-        if (i & 1)
-            x ^= column;
-        column ^= column >> 1;
-    }
-    return x;
+    uint32_t x = scramble_reverse_bits(i);
+    x ^= x << 16;
+    x ^= (x & 0x00ff00ffu) << 8;
+    x ^= (x & 0x0f0f0f0fu) << 4;
+    x ^= (x & 0x33333333u) << 2;
+    return x ^ (x & 0x55555555u) << 1;
 }
 
 /* Each bit of the result depends on the bits below it only. */

@@ -27,6 +27,32 @@ static void permutations_are_bijections(void)
     }
 }
 
+/* Column by column: each is the one before, xor itself shifted by one bit. */
+static uint32_t sobol_second_by_columns(uint32_t i)
+{
+    uint32_t x = 0;
+    for (uint32_t column = 1u << 31; i != 0; i >>= 1) {
+        x ^= i & 1 ? column : 0;
+        column ^= column >> 1;
+    }
+    return x;
+}
+
+/* The map is linear: what holds for each bit alone holds for all numbers. */
+static void the_second_sobol_dimension_is_pascals(void)
+{
+    for (int bit = 0; bit < 32; bit++) {
+        uint32_t i = UINT32_C(1) << bit;
+        TEST_ASSERT_EQUAL_HEX32(sobol_second_by_columns(i),
+                                scramble_sobol_second(i));
+    }
+    for (uint32_t k = 0; k < 10000; k++) {
+        uint32_t i = random_bits(11, k);
+        TEST_ASSERT_EQUAL_HEX32(sobol_second_by_columns(i),
+                                scramble_sobol_second(i));
+    }
+}
+
 /* Of 64 stratified samples, each of the 8 x 8 cells holds one, in every pair
  * of dimensions; of 64 Sobol samples, also each of the 64 x 1 and 1 x 64. */
 static void check_strata(enum sampler_kind kind, uint32_t columns,
@@ -117,6 +143,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(permutations_are_bijections);
+    RUN_TEST(the_second_sobol_dimension_is_pascals);
     RUN_TEST(every_stratum_has_its_sample);
     RUN_TEST(one_dimension_is_stratified_too);
     RUN_TEST(even_samplers_gain);
