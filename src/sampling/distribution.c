@@ -8,7 +8,7 @@
 
 static struct distribution_1d start(uint32_t count)
 {
-    struct distribution_1d d = {count, NULL, 0.0};
+    struct distribution_1d d = {count, NULL, 0.0, 0, NULL};
     d.cdf = mem_alloc((size_t)count + 1, sizeof *d.cdf);
     return d;
 }
@@ -22,13 +22,35 @@ static void normalize(struct distribution_1d *d)
         d->cdf[i] = empty ? (double)i / d->count : d->cdf[i] / d->total;
 }
 
+/* About as many parts as cells; but random numbers are multiples of 2^-24, and
+ * finer parts would be of no use. */
+static void make_guide(struct distribution_1d *d)
+{
+    uint32_t cell = 0;
+    d->parts = 1;
+    while (d->parts < d->count && d->parts < UINT32_C(1) << 24)
+        d->parts *= 2;
+    d->guide = mem_alloc((size_t)d->parts + 1, sizeof *d->guide);
+    for (uint32_t i = 0; i <= d->parts; i++) {
+        while (cell + 1 < d->count && d->cdf[cell + 1] <= (double)i / d->parts)
+            cell++;
+        d->guide[i] = cell;
+    }
+}
+
+static void finish(struct distribution_1d *d)
+{
+    normalize(d);
+    make_guide(d);
+}
+
 struct distribution_1d distribution_1d_make(const float weights[],
                                             uint32_t count)
 {
     struct distribution_1d d = start(count);
     for (uint32_t i = 0; i < count; i++)
         d.cdf[i + 1] = d.cdf[i] + (double)weights[i];
-    normalize(&d);
+    finish(&d);
     return d;
 }
 
@@ -37,7 +59,9 @@ struct distribution_1d distribution_1d_make(const float weights[],
  * is where all cells end, there is one. */
 static uint32_t find_cell(const struct distribution_1d *d, float random)
 {
-    uint32_t first = 0, beyond = d->count;
+    float inside = fminf(fmaxf(random, 0.0f), ONE_MINUS_EPSILON);
+    uint32_t part = (uint32_t)(inside * (float)d->parts);
+    uint32_t first = d->guide[part], beyond = d->guide[part + 1] + 1;
     while (beyond - first > 1) {
         uint32_t middle = first + (beyond - first) / 2;
         if (d->cdf[middle] <= (double)random)
@@ -68,7 +92,9 @@ float distribution_1d_probability(const struct distribution_1d *d,
 void distribution_1d_free(struct distribution_1d *d)
 {
     mem_free(d->cdf);
+    mem_free(d->guide);
     d->cdf = NULL;
+    d->guide = NULL;
     d->count = 0;
 }
 
@@ -79,7 +105,7 @@ static struct distribution_1d pick_rows(const struct distribution_1d *columns,
     struct distribution_1d d = start(height);
     for (uint32_t y = 0; y < height; y++)
         d.cdf[y + 1] = d.cdf[y] + columns[y].total;
-    normalize(&d);
+    finish(&d);
     return d;
 }
 

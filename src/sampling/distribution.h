@@ -11,11 +11,19 @@
 #include "base/vec.h"
 
 /* count cells of equal width over [0, 1), the density constant in each. The
- * distribution owns its table. */
+ * distribution owns its tables.
+ *
+ * A number is looked up in guide first, which has cut the range into `parts` of
+ * the same length and says in which cell each begins; so the search goes on
+ * between two cells that are mostly neighbours, however long the table: H. Chen
+ * and Y. Asau, "On Generating Random Variates from an Empirical Distribution",
+ * AIIE Transactions 6(2), 1974. */
 struct distribution_1d {
     uint32_t count;
-    double *cdf;  /* count + 1 values from 0 to 1 */
-    double total; /* sum of the weights */
+    double *cdf;     /* count + 1 values from 0 to 1 */
+    double total;    /* sum of the weights */
+    uint32_t parts;  /* a power of two: cutting by it does not round */
+    uint32_t *guide; /* parts + 1 cells */
 };
 
 /* From weights, none below 0; if all are 0 every cell is as likely. Release

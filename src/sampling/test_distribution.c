@@ -79,6 +79,43 @@ static void all_zero_is_even(void)
     distribution_1d_free(&d);
 }
 
+/* The last cell that begins at or before the number: by trying them all. */
+static uint32_t plain_search(const struct distribution_1d *d, float random)
+{
+    uint32_t cell = 0;
+    while (cell + 1 < d->count && d->cdf[cell + 1] <= (double)random)
+        cell++;
+    return cell;
+}
+
+static void check_around(const struct distribution_1d *d, float x)
+{
+    const float tries[] = {nextafterf(x, 0.0f), x, nextafterf(x, 1.0f)};
+    for (int i = 0; i < 3; i++)
+        if (tries[i] < 1.0f)
+            TEST_ASSERT_EQUAL_UINT32(plain_search(d, tries[i]),
+                                     distribution_1d_sample(d, tries[i], NULL));
+}
+
+/* Weights of very different sizes, a third of them 0. The numbers to try lie at
+ * the borders of the parts and of the cells, and beside them. */
+static void the_guide_finds_what_a_plain_search_finds(void)
+{
+    float weights[70];
+    for (uint32_t count = 1; count <= 70; count++) {
+        for (uint32_t i = 0; i < count; i++) {
+            float x = random_float(count, i);
+            weights[i] = x < 0.33f ? 0.0f : x < 0.66f ? x : 1e4f * x;
+        }
+        struct distribution_1d d = distribution_1d_make(weights, count);
+        for (uint32_t i = 0; i <= d.parts; i++)
+            check_around(&d, (float)i / (float)d.parts);
+        for (uint32_t i = 0; i < count; i++)
+            check_around(&d, (float)d.cdf[i]);
+        distribution_1d_free(&d);
+    }
+}
+
 /* A float table would give the dark cells after the sun 0 or twice their
  * share. */
 static void dark_cells_beside_a_sun_keep_their_share(void)
@@ -163,6 +200,7 @@ int main(void)
     RUN_TEST(the_remainder_is_a_fresh_number);
     RUN_TEST(the_ends_of_the_range_never_pick_weight_zero);
     RUN_TEST(all_zero_is_even);
+    RUN_TEST(the_guide_finds_what_a_plain_search_finds);
     RUN_TEST(dark_cells_beside_a_sun_keep_their_share);
     RUN_TEST(huge_weights_do_not_overflow);
     RUN_TEST(points_of_the_square_follow_the_density);
