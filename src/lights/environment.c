@@ -108,21 +108,19 @@ static void patch_luminances(const struct image *image, int column, int row,
         corners[i] = rgb_luminance(texels[i]);
 }
 
-/* The cosine of theta where a row of patches begins, and where it ends. In
- * double: near the poles the difference is small. */
-static void row_cosines(const struct image *image, int row, double cosine[2])
+/* The cosine of theta where a row of patches begins. In double: near the poles
+ * the difference from one row to the next is small. */
+static double row_cosine(const struct image *image, int row)
 {
-    for (int i = 0; i < 2; i++) {
-        double v = (row + i - 0.5) / image->height;
-        cosine[i] = cos((double)PI * fmin(fmax(v, 0.0), 1.0));
-    }
+    double v = (row - 0.5) / image->height;
+    return cos((double)PI * fmin(fmax(v, 0.0), 1.0));
 }
 
-/* The power of each patch of a row: mean luminance times solid angle. */
-static void row_powers(const struct image *image, int row, float powers[])
+/* The power of each patch of a row: mean luminance times solid angle. cosine:
+ * where the row begins, and where it ends. */
+static void row_powers(const struct image *image, int row,
+                       const double cosine[2], float powers[])
 {
-    double cosine[2];
-    row_cosines(image, row, cosine);
     float solid_angle =
         2.0f * PI / (float)image->width * (float)(cosine[0] - cosine[1]);
     for (int column = 0; column < image->width; column++) {
@@ -136,6 +134,7 @@ static void row_powers(const struct image *image, int row, float powers[])
 //> environment.table: Make the table
 struct environment_table {
     struct distribution_2d patches; /* their powers */
+    double *cosines; /* where each row begins, and where the last one ends */
 };
 
 struct environment_table *environment_table_make(const struct image *image)
@@ -143,8 +142,11 @@ struct environment_table *environment_table_make(const struct image *image)
     struct environment_table *table = mem_alloc(1, sizeof *table);
     size_t width = (size_t)image->width, rows = (size_t)image->height + 1;
     float *powers = mem_alloc(width * rows, sizeof *powers);
+    table->cosines = mem_alloc(rows + 1, sizeof *table->cosines);
+    for (size_t row = 0; row <= rows; row++)
+        table->cosines[row] = row_cosine(image, (int)row);
     for (size_t row = 0; row < rows; row++)
-        row_powers(image, (int)row, powers + row * width);
+        row_powers(image, (int)row, table->cosines + row, powers + row * width);
     table->patches =
         distribution_2d_make(powers, (uint32_t)width, (uint32_t)rows);
     mem_free(powers);
@@ -156,6 +158,7 @@ void environment_table_free(struct environment_table *table)
     if (table == NULL)
         return;
     distribution_2d_free(&table->patches);
+    mem_free(table->cosines);
     mem_free(table);
 }
 //< environment.table
@@ -169,10 +172,10 @@ static double polar_cosine(vec3 d)
 }
 
 /* b where equal steps are equal solid angles, from 0 to 1 over the row. */
-static float even_solid_angle(const struct image *image, int row, vec3 local)
+static float even_solid_angle(const struct environment_table *table, int row,
+                              vec3 local)
 {
-    double cosine[2];
-    row_cosines(image, row, cosine);
+    const double *cosine = table->cosines + row;
     double b = (cosine[0] - polar_cosine(local)) / (cosine[0] - cosine[1]);
     return (float)fmin(fmax(b, 0.0), 1.0);
 }
@@ -182,7 +185,7 @@ float environment_pdf(const struct environment *e, vec3 direction)
     float c[4];
     vec3 local = to_local(e, direction);
     struct place p = find_place(e->image, local);
-    float b = even_solid_angle(e->image, p.row, local);
+    float b = even_solid_angle(e->table, p.row, local);
     patch_luminances(e->image, p.column, p.row, c);
     float upper = c[0] + p.a * (c[1] - c[0]);
     float lower = c[2] + p.a * (c[3] - c[2]);
@@ -193,14 +196,13 @@ float environment_pdf(const struct environment *e, vec3 direction)
 
 //> environment.sample: Pick a direction
 /* The local direction at (a, b) of a patch. */
-static vec3 patch_direction(const struct image *image, uint32_t column,
+static vec3 patch_direction(const struct environment *e, uint32_t column,
                             uint32_t row, vec2 at)
 {
-    double cosine[2];
-    row_cosines(image, (int)row, cosine);
+    const double *cosine = e->table->cosines + row;
     double z = cosine[0] + (double)at.y * (cosine[1] - cosine[0]);
     float side = (float)sqrt(fmax(0.0, 1.0 - z * z));
-    float turn = ((float)column + 0.5f + at.x) / (float)image->width;
+    float turn = ((float)column + 0.5f + at.x) / (float)e->image->width;
     float phi = 2.0f * PI * turn;
     return vec3_make(side * cosf(phi), side * sinf(phi), (float)z);
 }
@@ -214,7 +216,7 @@ float environment_sample(const struct environment *e, vec2 random,
     distribution_2d_pick(&e->table->patches, random, &column, &row, &in_patch);
     patch_luminances(e->image, (int)column, (int)row, corners);
     vec2 at = warp_bilinear(in_patch, corners);
-    vec3 local = patch_direction(e->image, column, row, at);
+    vec3 local = patch_direction(e, column, row, at);
     *direction = vec3_normalize(transform_direction(&e->to_world, local));
     return environment_pdf(e, *direction);
 }
