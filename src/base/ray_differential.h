@@ -17,4 +17,14 @@ struct ray_differential {
     vec3 direction_dx, direction_dy;
 };
 
+/* Has the ray no extent? */
+static inline bool ray_differential_is_zero(const struct ray_differential *d)
+{
+    vec3 origin = vec3_add(vec3_abs(d->origin_dx), vec3_abs(d->origin_dy));
+    vec3 direction =
+        vec3_add(vec3_abs(d->direction_dx), vec3_abs(d->direction_dy));
+    vec3 sum = vec3_add(origin, direction);
+    return sum.x + sum.y + sum.z == 0.0f;
+}
+
 #endif

@@ -12,7 +12,7 @@ static void continue_differential(const struct vertex *v, const ray *r,
 {
     static const struct ray_differential none;
     struct ray_differential next = none;
-    if (way->specular)
+    if (way->specular && !ray_differential_is_zero(d))
         material_specular_differential(v->object->material, &v->surface, r, d,
                                        way, &next);
     *d = next;

@@ -24,7 +24,25 @@ struct job {
     struct filter filter;
     struct film *film;
     int first_sample, last_sample; /* of this pass; the last is not in it */
+    bool has_images;               /* as textures of what can be seen */
 };
+
+static bool has_images(const struct scene *scene)
+{
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        const struct material *m = scene->objects[i].material;
+        if (m != NULL && m->albedo != NULL && m->albedo->kind == TEXTURE_IMAGE)
+            return true;
+    }
+    return false;
+}
+
+/* Only images are filtered; without them a pixel may as well be a point. */
+static struct ray_differential differential(const struct job *job, vec2 place)
+{
+    static const struct ray_differential none;
+    return job->has_images ? camera_differential(&job->camera, place) : none;
+}
 
 static rgb view(const struct tracer *t, const ray *r,
                 const struct ray_differential *d)
@@ -78,7 +96,7 @@ static void render_sample(const struct job *job, int x, int y, int sample)
     struct pixel_sample at =
         pixel_sample(&job->filter, x, y, number, sampler_2d(&sampler));
     ray r = camera_ray(&job->camera, at.place);
-    struct ray_differential d = camera_differential(&job->camera, at.place);
+    struct ray_differential d = differential(job, at.place);
     counters_mine.camera_rays++;
     path_log_camera(t.log, (uint32_t)sample, at.place, &r);
     rgb found = radiance(&t, &r, &d);
@@ -177,7 +195,8 @@ bool render(const struct scene *scene, const struct render_options *options,
                       filter_make(&scene->film),
                       film,
                       0,
-                      0};
+                      0,
+                      has_images(scene)};
     struct progress progress = {0, false};
 #ifdef _OPENMP
     int threads = options->log != NULL ? 1 : options->threads;

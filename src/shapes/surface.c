@@ -46,6 +46,9 @@ void surface_footprint(struct surface *s, const ray *r,
                        const struct ray_differential *d)
 {
     vec3 dp_dx, dp_dy;
+    s->uv_dx = s->uv_dy = vec2_make(0.0f, 0.0f);
+    if (ray_differential_is_zero(d))
+        return; /* as after each rough bounce */
     surface_step(s, r, d, &dp_dx, &dp_dy);
     s->uv_dx = in_texture(s, dp_dx);
     s->uv_dy = in_texture(s, dp_dy);

@@ -245,6 +245,23 @@ static void a_segment_sees_what_is_before_its_point(void)
     }
 }
 
+static void rays_without_extent_have_no_footprint(void)
+{
+    struct ray_differential d = {.direction_dx = {0.01f, 0.0f, 0.0f}};
+    const struct ray_differential none = {.direction_dx = {0.0f, 0.0f, 0.0f}};
+    const struct sphere ball = {{0.0f, 0.0f, 0.0f}, 1.0f};
+    ray r = ray_make(vec3_make(0.1f, -3.0f, 0.2f), vec3_make(0.0f, 1.0f, 0.0f),
+                     0.0f, INFINITY);
+    float t;
+    TEST_ASSERT_TRUE(sphere_intersect(&ball, &r, &t));
+    struct surface s = sphere_surface(&ball, &r, t);
+    surface_footprint(&s, &r, &d);
+    TEST_ASSERT_TRUE(s.uv_dx.x > 0.001f);
+    TEST_ASSERT_TRUE(s.uv_dy.x == 0.0f && s.uv_dy.y == 0.0f);
+    surface_footprint(&s, &r, &none);
+    TEST_ASSERT_TRUE(s.uv_dx.x == 0.0f && s.uv_dx.y == 0.0f);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -258,5 +275,6 @@ int main(void)
     RUN_TEST(the_start_moves_when_the_offset_rounds_away);
     RUN_TEST(a_segment_ends_before_its_point);
     RUN_TEST(a_segment_sees_what_is_before_its_point);
+    RUN_TEST(rays_without_extent_have_no_footprint);
     return UNITY_END();
 }
