@@ -2,6 +2,8 @@
 #include "shapes/surface.h"
 
 #include <float.h>
+#include <stdint.h>
+#include <string.h>
 
 #include "base/constants.h"
 
@@ -54,14 +56,26 @@ void surface_footprint(struct surface *s, const ray *r,
     s->uv_dy = in_texture(s, dp_dy);
 }
 
+/* nextafterf, inlined: floats of one sign are in the order of their bits. */
+static float next_float(float x, float towards)
+{
+    uint32_t bits;
+    if (x == 0.0f || !isfinite(x))
+        return nextafterf(x, towards);
+    memcpy(&bits, &x, sizeof bits);
+    bits += (x > 0.0f) == (towards > 0.0f) ? 1u : -1u;
+    memcpy(&x, &bits, sizeof bits);
+    return x;
+}
+
 /* The next number away from where the point came from: adding a small offset
  * to a large coordinate may round it away altogether. */
 static float round_outwards(float moved, float offset)
 {
     if (offset > 0.0f)
-        return nextafterf(moved, INFINITY);
+        return next_float(moved, INFINITY);
     if (offset < 0.0f)
-        return nextafterf(moved, -INFINITY);
+        return next_float(moved, -INFINITY);
     return moved;
 }
 

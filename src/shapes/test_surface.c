@@ -245,6 +245,26 @@ static void a_segment_sees_what_is_before_its_point(void)
     }
 }
 
+/* An offset too small to change a large coordinate still moves the ray off. */
+static void rays_start_at_the_next_number_outwards(void)
+{
+    const float places[] = {1.0f,   -1.0f,      0.0f,      1e-40f,
+                            -1e30f, 3.4028e38f, 0x1p-126f, -0x1p-126f};
+    const float offset = 1e-44f;
+    for (int i = 0; i < 8; i++) {
+        float x = places[i];
+        vec3 normal = vec3_make(1.0f, 0.0f, 0.0f);
+        struct surface s = {.position = vec3_make(x, 0.0f, 0.0f),
+                            .position_error = vec3_make(offset, 0.0f, 0.0f),
+                            .geometric_normal = normal};
+        ray out = surface_ray(&s, normal, INFINITY);
+        ray in = surface_ray(&s, vec3_negate(normal), INFINITY);
+        TEST_ASSERT_TRUE(out.origin.x == nextafterf(x + offset, INFINITY));
+        TEST_ASSERT_TRUE(in.origin.x == nextafterf(x - offset, -INFINITY));
+        TEST_ASSERT_TRUE(out.origin.y == 0.0f && in.origin.z == 0.0f);
+    }
+}
+
 static void rays_without_extent_have_no_footprint(void)
 {
     struct ray_differential d = {.direction_dx = {0.01f, 0.0f, 0.0f}};
@@ -275,6 +295,7 @@ int main(void)
     RUN_TEST(the_start_moves_when_the_offset_rounds_away);
     RUN_TEST(a_segment_ends_before_its_point);
     RUN_TEST(a_segment_sees_what_is_before_its_point);
+    RUN_TEST(rays_start_at_the_next_number_outwards);
     RUN_TEST(rays_without_extent_have_no_footprint);
     return UNITY_END();
 }
