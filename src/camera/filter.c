@@ -83,6 +83,13 @@ static int find_cell(const struct filter *f, float random)
     return low;
 }
 
+/* Of the filters only Mitchell and Netravali's has negative lobes. */
+static bool is_negative(const struct filter *f, int cell)
+{
+    return f->kind == FILTER_MITCHELL &&
+           filter_value(f, cell_place(f, (float)cell + 0.5f)) < 0.0f;
+}
+
 /* The density is constant in a cell: what the table says, not the function,
  * is what is sampled, and with 512 cells the two differ by less than 1e-3. */
 static float sample_axis(const struct filter *f, float random, float *weight)
@@ -90,8 +97,7 @@ static float sample_axis(const struct filter *f, float random, float *weight)
     int cell = find_cell(f, random);
     float width = f->cdf[cell + 1] - f->cdf[cell];
     float within = width > 0.0f ? (random - f->cdf[cell]) / width : 0.5f;
-    float middle = filter_value(f, cell_place(f, (float)cell + 0.5f));
-    *weight *= middle < 0.0f ? -f->mass : f->mass;
+    *weight *= is_negative(f, cell) ? -f->mass : f->mass;
     return cell_place(f, (float)cell + within);
 }
 
