@@ -95,6 +95,22 @@ static void one_bad_component_is_not_finite(void)
     TEST_ASSERT_FALSE(vec3_is_finite(vec3_make(0, 0, -INFINITY)));
 }
 
+static void expect_same(float expected, float got)
+{
+    TEST_ASSERT_TRUE(expected == got || (isnan(expected) && isnan(got)));
+}
+
+static void smaller_and_larger_are_the_librarys(void)
+{
+    const float x[] = {NAN,  -INFINITY, -3e38f, -1.0f,   -1e-45f, -0.0f,
+                       0.0f, 1e-45f,    1.0f,   1.0001f, 3e38f,   INFINITY};
+    for (int i = 0; i < 12; i++)
+        for (int k = 0; k < 12; k++) {
+            expect_same(fminf(x[i], x[k]), float_min(x[i], x[k]));
+            expect_same(fmaxf(x[i], x[k]), float_max(x[i], x[k]));
+        }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -106,5 +122,6 @@ int main(void)
     RUN_TEST(step_goes_along_its_direction);
     RUN_TEST(axes_are_numbered_from_x);
     RUN_TEST(one_bad_component_is_not_finite);
+    RUN_TEST(smaller_and_larger_are_the_librarys);
     return UNITY_END();
 }

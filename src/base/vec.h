@@ -9,6 +9,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "base/minmax.h"
+
 typedef struct {
     float x, y;
 } vec2;
@@ -79,12 +81,14 @@ static inline vec3 vec3_normalize(vec3 a)
 
 static inline vec3 vec3_min(vec3 a, vec3 b)
 {
-    return vec3_make(fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z));
+    return vec3_make(float_min(a.x, b.x), float_min(a.y, b.y),
+                     float_min(a.z, b.z));
 }
 
 static inline vec3 vec3_max(vec3 a, vec3 b)
 {
-    return vec3_make(fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z));
+    return vec3_make(float_max(a.x, b.x), float_max(a.y, b.y),
+                     float_max(a.z, b.z));
 }
 
 static inline vec3 vec3_abs(vec3 a)

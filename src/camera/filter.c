@@ -3,13 +3,15 @@
 
 #include <stddef.h>
 
+#include "base/minmax.h"
+
 const char *const filter_names[] = {"box", "tent", "gaussian", "mitchell",
                                     NULL};
 
 static float gaussian(const struct filter *f, float x)
 {
     float edge = expf(-f->alpha * f->radius * f->radius);
-    return fmaxf(0.0f, expf(-f->alpha * x * x) - edge);
+    return float_max(0.0f, expf(-f->alpha * x * x) - edge);
 }
 
 /* Mitchell and Netravali's cubic, for 0 <= x <= 2. */

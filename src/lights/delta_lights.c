@@ -1,6 +1,7 @@
 /* delta_lights.c - see delta_lights.h. */
 #include "lights/delta_lights.h"
 
+#include "base/minmax.h"
 #include "lights/point_light.h"
 
 /* All of a sample but its radiance, and how far away the light is. */
@@ -44,7 +45,7 @@ bool directional_light_sample(const struct light *light,
 
 float spot_light_falloff(const struct light *light, float cosine)
 {
-    float angle = acosf(fmaxf(-1.0f, fminf(1.0f, cosine)));
+    float angle = acosf(float_max(-1.0f, float_min(1.0f, cosine)));
     if (angle <= light->beam_angle)
         return 1.0f;
     if (angle >= light->cutoff_angle)

@@ -2,6 +2,7 @@
 #include "lights/sphere_light.h"
 
 #include "base/constants.h"
+#include "base/minmax.h"
 #include "sampling/warp.h"
 
 /* The cone of directions in which a point sees the sphere. */
@@ -43,7 +44,7 @@ static vec3 from_frame(vec3 axis, vec3 local)
 static vec3 cap_normal(const struct cone *cone, vec3 local)
 {
     float x = sqrtf(local.x * local.x + local.y * local.y) / cone->sine;
-    float root = sqrtf(fmaxf(0.0f, 1.0f - x * x));
+    float root = sqrtf(float_max(0.0f, 1.0f - x * x));
     float radii_away = local.z / cone->sine - root;
     float cosine = x * x * cone->sine + local.z * root;
     return vec3_make(local.x * radii_away, local.y * radii_away, -cosine);

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "base/minmax.h"
+
 float fresnel_dielectric(float cosine, float eta_beyond_over_here)
 {
     float ratio = 1.0f / eta_beyond_over_here;
@@ -26,11 +28,11 @@ float fresnel_conductor(float cosine, float eta, float k)
     float cosine2 = cosine * cosine, sine2 = 1.0f - cosine2;
     float difference = eta * eta - k * k - sine2;
     float sum = hypotf(difference, 2.0f * eta * k); /* u^2 + v^2 */
-    float u = sqrtf(fmaxf(0.0f, 0.5f * (sum + difference)));
+    float u = sqrtf(float_max(0.0f, 0.5f * (sum + difference)));
     float mixed = 2.0f * cosine * u;
     float across = (sum + cosine2 - mixed) / (sum + cosine2 + mixed);
     float fixed = cosine2 * sum + sine2 * sine2;
     float in_plane = across * (fixed - mixed * sine2) / (fixed + mixed * sine2);
     /* Rounding may take an invisible metal, eta = 1 and k = 0, below 0. */
-    return fmaxf(0.0f, 0.5f * (across + in_plane));
+    return float_max(0.0f, 0.5f * (across + in_plane));
 }

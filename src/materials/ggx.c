@@ -2,6 +2,7 @@
 #include "materials/ggx.h"
 
 #include "base/constants.h"
+#include "base/minmax.h"
 #include "sampling/warp.h"
 
 float ggx_density(vec2 alpha, vec3 normal)
@@ -38,10 +39,10 @@ static vec3 sample_hemisphere_seen(vec3 view, vec2 random)
 {
     vec3 x = level(view), y = vec3_cross(view, x);
     vec2 p = warp_disk(random);
-    float half = sqrtf(fmaxf(0.0f, 1.0f - p.x * p.x));
+    float half = sqrtf(float_max(0.0f, 1.0f - p.x * p.x));
     float squeeze = 0.5f * (1.0f + view.z);
     p.y = (1.0f - squeeze) * half + squeeze * p.y;
-    float height = sqrtf(fmaxf(0.0f, 1.0f - p.x * p.x - p.y * p.y));
+    float height = sqrtf(float_max(0.0f, 1.0f - p.x * p.x - p.y * p.y));
     return vec3_step(vec3_step(vec3_scale(x, p.x), p.y, y), height, view);
 }
 
@@ -49,6 +50,6 @@ vec3 ggx_sample_seen(vec2 alpha, vec3 direction, vec2 random)
 {
     vec3 view = vec3_normalize(stretch(alpha, direction));
     vec3 n = sample_hemisphere_seen(view, random);
-    n.z = fmaxf(0.0f, n.z);
+    n.z = float_max(0.0f, n.z);
     return vec3_normalize(stretch(alpha, n));
 }

@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "base/memory.h"
+#include "base/minmax.h"
 #include "sampling/warp.h"
 
 static struct distribution_1d start(uint32_t count)
@@ -59,7 +60,7 @@ struct distribution_1d distribution_1d_make(const float weights[],
  * is where all cells end, there is one. */
 static uint32_t find_cell(const struct distribution_1d *d, float random)
 {
-    float inside = fminf(fmaxf(random, 0.0f), ONE_MINUS_EPSILON);
+    float inside = float_min(float_max(random, 0.0f), ONE_MINUS_EPSILON);
     uint32_t part = (uint32_t)(inside * (float)d->parts);
     uint32_t first = d->guide[part], beyond = d->guide[part + 1] + 1;
     while (beyond - first > 1) {
@@ -79,7 +80,7 @@ uint32_t distribution_1d_sample(const struct distribution_1d *d, float random,
     double start = d->cdf[cell], width = d->cdf[cell + 1] - start;
     float inside = (float)(((double)random - start) / width);
     if (remainder != NULL)
-        *remainder = fminf(inside, ONE_MINUS_EPSILON);
+        *remainder = float_min(inside, ONE_MINUS_EPSILON);
     return cell;
 }
 
@@ -139,7 +140,7 @@ static float density(const struct distribution_2d *d, uint32_t column,
 /* The cell of a coordinate in [0, 1]. */
 static uint32_t cell_of(float coordinate, uint32_t count)
 {
-    float cell = fmaxf(0.0f, coordinate * (float)count);
+    float cell = float_max(0.0f, coordinate * (float)count);
     return cell < (float)count ? (uint32_t)cell : count - 1;
 }
 

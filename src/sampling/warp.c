@@ -2,6 +2,7 @@
 #include "sampling/warp.h"
 
 #include "base/constants.h"
+#include "base/minmax.h"
 
 /* A point of the unit disk at a radius and an angle. */
 static vec2 polar(float radius, float angle)
@@ -55,13 +56,13 @@ float warp_hemisphere_pdf(vec3 direction)
 vec3 warp_cosine_hemisphere(vec2 random)
 {
     vec2 d = warp_disk(random);
-    float z = sqrtf(fmaxf(0.0f, 1.0f - d.x * d.x - d.y * d.y));
+    float z = sqrtf(float_max(0.0f, 1.0f - d.x * d.x - d.y * d.y));
     return vec3_make(d.x, d.y, z);
 }
 
 float warp_cosine_hemisphere_pdf(vec3 direction)
 {
-    return fmaxf(0.0f, direction.z) / PI;
+    return float_max(0.0f, direction.z) / PI;
 }
 
 vec3 warp_cone(vec2 random, float one_minus_cosine)
@@ -103,7 +104,7 @@ float warp_triangle_pdf(vec2 weights)
 static float linear(float random, float a, float b)
 {
     float root = sqrtf((1.0f - random) * a * a + random * b * b);
-    return fminf(random * (a + b) / (a + root), ONE_MINUS_EPSILON);
+    return float_min(random * (a + b) / (a + root), ONE_MINUS_EPSILON);
 }
 
 vec2 warp_bilinear(vec2 random, const float corners[4])

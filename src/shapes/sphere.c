@@ -2,6 +2,7 @@
 #include "shapes/sphere.h"
 
 #include "base/constants.h"
+#include "base/minmax.h"
 
 bool sphere_intersect(const struct sphere *s, const ray *r, float *t)
 {
@@ -52,7 +53,7 @@ struct surface sphere_surface(const struct sphere *s, const ray *r, float t)
 {
     struct surface out = {0};
     vec3 n = vec3_normalize(vec3_sub(ray_at(r, t), s->center));
-    float theta = acosf(fmaxf(-1.0f, fminf(1.0f, n.z)));
+    float theta = acosf(float_max(-1.0f, float_min(1.0f, n.z)));
     out.position = vec3_step(s->center, s->radius, n);
     /* n is exact to 4 roundings, its product and the sum add one each. */
     vec3 size = vec3_add(vec3_abs(s->center),

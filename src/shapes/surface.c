@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/minmax.h"
 
 /* The ends of an open range of t, as floats. */
 static const float just_above_0 = FLT_MIN, just_below_1 = 1.0f - 0x1p-24f;
@@ -111,6 +112,6 @@ static float slack_at_end(vec3 start, vec3 point)
 ray surface_segment(const struct surface *s, vec3 point)
 {
     vec3 start = leave(s, vec3_sub(point, s->position));
-    float end = fminf(just_below_1, 1.0f - slack_at_end(start, point));
+    float end = float_min(just_below_1, 1.0f - slack_at_end(start, point));
     return ray_make(start, vec3_sub(point, start), just_above_0, end);
 }

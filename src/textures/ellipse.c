@@ -1,6 +1,8 @@
 /* ellipse.c - see ellipse.h. */
 #include "textures/ellipse.h"
 
+#include "base/minmax.h"
+
 struct ellipse ellipse_of_footprint(const struct mipmap *m, vec2 uv_dx,
                                     vec2 uv_dy)
 {
@@ -19,7 +21,7 @@ static const float most_anisotropy = 64.0f;
  * keep E + add I has the axes of E and the squares keep * square + add. */
 double ellipse_widen(struct ellipse *e, float max_anisotropy)
 {
-    double ratio = fminf(fmaxf(max_anisotropy, 1.0f), most_anisotropy);
+    double ratio = float_min(float_max(max_anisotropy, 1.0f), most_anisotropy);
     double mean = 0.5 * (e->xx + e->yy);
     double spread = hypot(0.5 * (e->xx - e->yy), e->xy);
     double longest = mean + spread, shortest = mean - spread;

@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "base/minmax.h"
 #include "base/todo.h"
 #include "textures/color_sum.h"
 #include "textures/ellipse.h"
@@ -160,7 +161,7 @@ static const double weight_end = 2.0;
 static double ewa_weight(double distance2)
 {
     const float lowest = 0.018315639f; /* exp(-2 weight_end) */
-    return fmaxf(expf(-2.0f * (float)distance2) - lowest, 0.0f);
+    return float_max(expf(-2.0f * (float)distance2) - lowest, 0.0f);
 }
 //< mipmap.ewa.weight
 
