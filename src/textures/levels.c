@@ -26,9 +26,16 @@ void mipmap_free(struct mipmap *m)
 
 /* ---- texels ---- */
 
-/* The remainder that lies in 0 .. n - 1, also of a negative i. */
+/* The remainder that lies in 0 .. n - 1, also of a negative i. Mostly i is next
+ * to that range, and takes no division, which is slow. */
 static int floor_mod(int i, int n)
 {
+    if (i < 0)
+        i += n;
+    else if (i >= n)
+        i -= n;
+    if (i >= 0 && i < n)
+        return i;
     int remainder = i % n;
     return remainder < 0 ? remainder + n : remainder;
 }
@@ -38,15 +45,14 @@ static int wrap_index(enum texture_wrap wrap, int i, int size)
 {
     if (i >= 0 && i < size)
         return i;
-    int there_and_back = floor_mod(i, 2 * size);
     switch (wrap) {
     case WRAP_REPEAT:
         return floor_mod(i, size);
     case WRAP_CLAMP:
         return i < 0 ? 0 : size - 1;
     case WRAP_MIRROR:
-        return there_and_back < size ? there_and_back
-                                     : 2 * size - 1 - there_and_back;
+        i = floor_mod(i, 2 * size);
+        return i < size ? i : 2 * size - 1 - i;
     default:
         return -1;
     }
