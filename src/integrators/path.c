@@ -1,6 +1,7 @@
 /* path.c - see path.h. */
 #include "integrators/path.h"
 
+#include "base/minmax.h"
 #include "integrators/bounce.h"
 #include "integrators/mis.h"
 #include "integrators/next_event.h"
@@ -80,10 +81,10 @@ static void ask_lights(struct path *p, const struct vertex *v)
 static bool survives(struct path *p)
 {
     rgb w = p->throughput;
-    float most = fmaxf(w.r, fmaxf(w.g, w.b));
+    float most = float_max(w.r, float_max(w.g, w.b));
     if (most >= p->t->scene->integrator.rr_threshold)
         return true;
-    float chance = fmaxf(0.05f, most);
+    float chance = float_max(0.05f, most);
     if (sampler_1d(p->t->sampler) >= chance)
         return false;
     p->throughput = rgb_scale(w, 1.0f / chance);
