@@ -189,24 +189,27 @@ struct surface scene_surface(const struct scene *scene, const ray *r,
     return mesh_surface(&o->mesh, p->triangle, &found);
 }
 
-static bool blocked(const struct scene *scene, ray r)
+bool scene_any(const struct scene *scene, const ray *r)
 {
-    struct scene_hit limit = {NO_PRIMITIVE, r.t_max, 0.0f, 0.0f};
+    ray longer = *r;
+    struct scene_hit limit = {NO_PRIMITIVE, r->t_max, 0.0f, 0.0f};
     counters_mine.shadow_rays++;
-    r.t_max = a_little_beyond(r.t_max);
-    return accel_any(&scene->accel, &r, test_any, scene, &limit);
+    longer.t_max = a_little_beyond(r->t_max);
+    return accel_any(&scene->accel, &longer, test_any, scene, &limit);
 }
 
 bool scene_segment_blocked(const struct scene *scene, const struct surface *s,
                            vec3 point)
 {
-    return blocked(scene, surface_segment(s, point));
+    ray r = surface_segment(s, point);
+    return scene_any(scene, &r);
 }
 
 bool scene_direction_blocked(const struct scene *scene, const struct surface *s,
                              vec3 direction)
 {
-    return blocked(scene, surface_ray(s, direction, INFINITY));
+    ray r = surface_ray(s, direction, INFINITY);
+    return scene_any(scene, &r);
 }
 
 void scene_free(struct scene *scene)

@@ -81,6 +81,11 @@ bool scene_prepare(struct scene *scene, enum accel_kind kind,
 bool scene_nearest(const struct scene *scene, const ray *r,
                    struct scene_hit *hit);
 
+/* Is anything in the ray's range, wherever? Counts as a shadow ray. Most ask
+ * one of the two questions below, which see to it that the ray starts off the
+ * surface that it leaves. */
+bool scene_any(const struct scene *scene, const ray *r);
+
 /* The surface at a hit of this ray, and the object that it belongs to. */
 struct surface scene_surface(const struct scene *scene, const ray *r,
                              const struct scene_hit *hit,
