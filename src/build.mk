@@ -18,6 +18,9 @@ VARIANT ?=
 TODO ?=
 ARCH ?= native
 CHECK ?=
+# What the renderer uses unless --accel names another: the wide tree, but the
+# course's own BVH where something may be a student's.
+ACCEL ?= $(if $(VARIANT)$(TODO)$(CHECK)$(filter kit,$(config)),bvh,wide)
 
 empty :=
 space := $(empty) $(empty)
@@ -91,6 +94,7 @@ $(objdir)/image/stb_library.o: cflags += $(if $(filter asan,$(OPT)),-fno-sanitiz
 
 $(objdir)/main.o $(objdir)/program/results.o: cflags += -DRAYBOOK_VERSION='"$(VERSION)"' \
     -DRAYBOOK_VARIANT='"$(or $(variant_name),reference)$(TODO:%= TODO_%)"'
+$(objdir)/program/options.o: cflags += -DRAYBOOK_ACCEL='"$(ACCEL)"'
 $(objdir)/%.o: src/%.c $(stamp)
 	@mkdir -p $(@D)
 	$(quiet_cc) $(CC) $(cflags) -MMD -MP -c $< -o $@
@@ -98,8 +102,8 @@ $(objdir)/%.o: src/%.c $(stamp)
 # Changes when the flags do, so that objects made with others are made again.
 $(stamp): FORCE
 	@mkdir -p $(@D)
-	@printf '%s\n' '$(CC) $(VERSION) $(cflags)' | cmp -s - $@ || \
-	    printf '%s\n' '$(CC) $(VERSION) $(cflags)' > $@
+	@printf '%s\n' '$(CC) $(VERSION) $(ACCEL) $(cflags)' | cmp -s - $@ || \
+	    printf '%s\n' '$(CC) $(VERSION) $(ACCEL) $(cflags)' > $@
 
 # One program for each test file: Unity, the test, and all objects but main's.
 unity := $(or $(UNITY_ROOT),build/unity)

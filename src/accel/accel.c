@@ -10,7 +10,7 @@
 #include "accel/embree.h"
 #endif
 
-const char *const accel_names[] = {"bvh", "linear", "embree", NULL};
+const char *const accel_names[] = {"wide", "bvh", "linear", "embree", NULL};
 
 /* Embree may be missing from a build; nothing below is reached then. */
 #ifdef RAYBOOK_EMBREE
@@ -38,13 +38,29 @@ static void build_bvh(struct accel *a, const aabb boxes[], uint32_t order[])
         a->nodes = mem_resize(a->nodes, a->node_count, sizeof *a->nodes);
 }
 
+static aabb box_at(const void *boxes, uint32_t primitive)
+{
+    return ((const aabb *)boxes)[primitive];
+}
+
+struct accel accel_build_wide(const struct wide_source *source)
+{
+    struct accel a = {.kind = ACCEL_WIDE, .primitive_count = source->count};
+    a.wide = wide_build(source);
+    a.node_count = a.wide.node_count;
+    return a;
+}
+
 struct accel accel_build(enum accel_kind kind, const aabb boxes[],
                          uint32_t primitive_count, uint32_t order[])
 {
-    struct accel a = {kind, primitive_count, NULL, 0, NULL};
+    struct accel a = {.kind = kind, .primitive_count = primitive_count};
+    const struct wide_source source = {primitive_count, boxes, NULL, box_at};
     assert(accel_available(kind));
     for (uint32_t i = 0; i < primitive_count; i++)
         order[i] = i;
+    if (kind == ACCEL_WIDE)
+        return accel_build_wide(&source);
     if (kind == ACCEL_BVH)
         build_bvh(&a, boxes, order);
     else if (kind == ACCEL_EMBREE)
@@ -64,6 +80,8 @@ bool accel_nearest(const struct accel *a, ray *r, leaf_test_fn *test,
 {
     if (a->kind == ACCEL_LINEAR)
         return query_linear(a, r, test, context, hit);
+    if (a->kind == ACCEL_WIDE)
+        return wide_nearest(&a->wide, r, test, context, hit);
     if (a->kind == ACCEL_EMBREE)
         return embree_nearest(a->embree, r, test, context, hit);
     const struct bvh tree = {a->nodes, a->node_count};
@@ -75,6 +93,8 @@ bool accel_any(const struct accel *a, ray *r, leaf_test_fn *test,
 {
     if (a->kind == ACCEL_LINEAR)
         return query_linear(a, r, test, context, hit);
+    if (a->kind == ACCEL_WIDE)
+        return wide_any(&a->wide, r, test, context, hit);
     if (a->kind == ACCEL_EMBREE)
         return embree_any(a->embree, r, test, context, hit);
     const struct bvh tree = {a->nodes, a->node_count};
@@ -84,6 +104,7 @@ bool accel_any(const struct accel *a, ray *r, leaf_test_fn *test,
 void accel_free(struct accel *a)
 {
     mem_free(a->nodes);
+    wide_free(&a->wide);
     embree_free(a->embree);
     a->nodes = NULL;
     a->embree = NULL;

@@ -7,12 +7,14 @@
 
 #include "accel/bvh.h"
 #include "accel/leaf.h"
+#include "accel/wide.h"
 #include "base/box.h"
 
-/* ACCEL_LINEAR has no structure: it tests everything, which is what the
+/* ACCEL_WIDE is the fast one, ACCEL_BVH the one that the course is about.
+ * ACCEL_LINEAR has no structure: it tests everything, which is what the
  * others are measured and checked against. ACCEL_EMBREE is another's
  * traversal of another's tree: accel/embree.h. */
-enum accel_kind { ACCEL_BVH, ACCEL_LINEAR, ACCEL_EMBREE };
+enum accel_kind { ACCEL_WIDE, ACCEL_BVH, ACCEL_LINEAR, ACCEL_EMBREE };
 
 /* NULL-terminated, in the order of enum accel_kind. */
 extern const char *const accel_names[];
@@ -23,8 +25,9 @@ struct accel {
     enum accel_kind kind;
     uint32_t primitive_count;
     struct bvh_node *nodes; /* ACCEL_BVH */
-    uint32_t node_count;
-    struct embree *embree; /* ACCEL_EMBREE */
+    uint32_t node_count;    /* ACCEL_BVH, ACCEL_WIDE */
+    struct wide wide;       /* ACCEL_WIDE */
+    struct embree *embree;  /* ACCEL_EMBREE */
 };
 
 /* Is this kind in this build? All are but, perhaps, ACCEL_EMBREE. */
@@ -36,7 +39,11 @@ bool accel_available(enum accel_kind kind);
 struct accel accel_build(enum accel_kind kind, const aabb boxes[],
                          uint32_t primitive_count, uint32_t order[]);
 
-/* See bvh_nearest and bvh_any. */
+/* Builds an ACCEL_WIDE that tests triangles itself, as wide_build does. Its
+ * order is that of the source. Release with accel_free. */
+struct accel accel_build_wide(const struct wide_source *source);
+
+/* See bvh_nearest and bvh_any; for ACCEL_WIDE, wide_nearest and wide_any. */
 bool accel_nearest(const struct accel *a, ray *r, leaf_test_fn *test,
                    const void *context, void *hit);
 bool accel_any(const struct accel *a, ray *r, leaf_test_fn *test,

@@ -10,7 +10,7 @@
 #include "sampling/random.h"
 #include "unity.h"
 
-enum { KINDS = 3, COUNT = 500, RAYS = 2000 };
+enum { KINDS = 4, COUNT = 500, RAYS = 2000 };
 
 void setUp(void)
 {
@@ -87,10 +87,12 @@ static bool ask(const struct accel *a, struct boxes *b, ray r, bool any,
 
 static void every_kind_has_a_name(void)
 {
+    TEST_ASSERT_EQUAL_STRING("wide", accel_names[ACCEL_WIDE]);
     TEST_ASSERT_EQUAL_STRING("bvh", accel_names[ACCEL_BVH]);
     TEST_ASSERT_EQUAL_STRING("linear", accel_names[ACCEL_LINEAR]);
     TEST_ASSERT_EQUAL_STRING("embree", accel_names[ACCEL_EMBREE]);
     TEST_ASSERT_NULL(accel_names[KINDS]);
+    TEST_ASSERT_TRUE(accel_available(ACCEL_WIDE));
     TEST_ASSERT_TRUE(accel_available(ACCEL_BVH));
     TEST_ASSERT_TRUE(accel_available(ACCEL_LINEAR));
 #ifdef RAYBOOK_EMBREE
@@ -204,6 +206,7 @@ static void freeing_twice_is_harmless(void)
         accel_free(&a);
         accel_free(&a);
         TEST_ASSERT_NULL(a.nodes);
+        TEST_ASSERT_NULL(a.wide.memory);
     }
 }
 

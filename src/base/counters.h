@@ -13,10 +13,10 @@ struct counters {
     uint64_t specular_rays;  /* continued through glass or by a mirror */
     uint64_t bounce_rays;    /* continued by chance from a rough surface */
     uint64_t shadow_rays;    /* any-hit queries towards a light */
-    uint64_t boxes_tested;   /* ray-box tests */
+    uint64_t boxes_tested;   /* ray-box tests; eight a node of the wide tree */
     uint64_t leaves_visited; /* leaf ranges handed to the primitive test */
-    uint64_t primitives_tested;
-    uint64_t samples; /* image samples finished */
+    uint64_t primitives_tested; /* eight a leaf of the wide tree */
+    uint64_t samples;           /* image samples finished */
 };
 
 /* The calling thread's own counters, zero when the thread starts. */

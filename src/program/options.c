@@ -14,6 +14,12 @@
 const char *const aov_names[] = {"albedo",   "normal",    "depth",    "uv",
                                  "bvh_cost", "mip_level", "variance", NULL};
 
+/* The structure that is used unless one is named: build.mk knows whether the
+ * BVH is the reference's. */
+#ifndef RAYBOOK_ACCEL
+#define RAYBOOK_ACCEL "bvh"
+#endif
+
 /* Reads one option's value (NULL when it takes none); false fills *err. */
 typedef bool set_fn(struct options *o, const char *name, const char *value,
                     struct error *err);
@@ -225,7 +231,9 @@ static const struct option {
      "bvh_cost or mip_level",
      set_integrator},
     {"--accel", NULL, "NAME",
-     "bvh (default), linear (tests everything) or embree", set_accel},
+     "wide, bvh (the one that students write), linear (tests\n"
+     "everything) or embree; default: " RAYBOOK_ACCEL,
+     set_accel},
     {"--override", NULL, "JSON",
      "merged into the scene, such as\n"
      "'{\"film\": {\"resolution\": [64, 64]}}'",
@@ -319,6 +327,8 @@ bool options_parse(int argc, char *argv[], struct options *out,
     *out = none;
     out->seed = -1;
     out->integrator = -1;
+    if (!set_accel(out, "--accel", RAYBOOK_ACCEL, err))
+        return false;
     for (int i = 1; i < argc; i++)
         if (!parse_one(out, &i, argc, argv, err))
             return false;

@@ -69,9 +69,20 @@ static int threads_used(const struct options *o)
 #endif
 }
 
+/* Building uses threads, too. */
+static void use_threads(const struct options *o)
+{
+#ifdef _OPENMP
+    omp_set_num_threads(threads_used(o));
+#else
+    (void)o;
+#endif
+}
+
 bool session_load(struct session *s, struct error *err)
 {
     double start = progress_clock();
+    use_threads(&s->options);
     if (!scene_load(s->options.scene, s->options.override, &s->scene, err) ||
         !apply_options(&s->options, &s->scene, err))
         return false;

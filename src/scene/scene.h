@@ -34,12 +34,12 @@ struct object {
     int32_t light;
 };
 
-/* One thing that a ray can hit, in the order in which leaves name it, with a
- * copy of what its test reads: a mesh's vertices lie all over memory. */
+/* Something that a ray can hit, with a copy of what its test reads: a mesh's
+ * vertices lie all over memory. */
 struct primitive {
+    uint32_t number; /* in the order of the file */
     uint32_t object;
-    uint32_t triangle; /* of the object's mesh; unused for a sphere */
-    vec3 corners[3];   /* of a triangle */
+    vec3 corners[3]; /* of a triangle */
 };
 
 struct scene {
@@ -58,8 +58,9 @@ struct scene {
     struct image environment_image;
 
     /* from scene_prepare on */
-    struct primitive *primitives;
     uint32_t primitive_count;
+    uint32_t *first_primitive;    /* of each object; one more, the count */
+    struct primitive *primitives; /* as leaves name them; NULL: ACCEL_WIDE */
     struct accel accel;
     float radius; /* of a sphere that holds everything */
     struct light_table light_table;
@@ -67,13 +68,13 @@ struct scene {
 
 /* Where a ray met something. Ask scene_surface for more. */
 struct scene_hit {
-    uint32_t primitive;
+    uint32_t primitive; /* its number, in the order of the file */
     float t;
     float b1, b2; /* barycentric coordinates, of a triangle */
 };
 
 /* Counts the primitives and builds the acceleration structure. Returns false
- * and fills *err when there are more than 2^32 - 2 of them. */
+ * and fills *err when there are 2^30 of them or more. */
 bool scene_prepare(struct scene *scene, enum accel_kind kind,
                    struct error *err);
 

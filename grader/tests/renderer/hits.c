@@ -2,8 +2,8 @@
  *
  *     hits MESH.obj INSIDE.txt RAYS SEED LINEAR_RAYS
  *
- * Casts so many rays at the mesh through the BVH and, if it is there, Embree,
- * the first LINEAR_RAYS of them also by testing everything, and prints counts
+ * Casts so many rays at the mesh through the BVH, the wide tree and, if it is
+ * there, Embree, the first LINEAR_RAYS of them also by testing everything, and prints counts
  * as one JSON object. Four kinds of rays take turns: between random points,
  * from a random point to a vertex, from a random point to a point of an edge,
  * and to a random point. INSIDE.txt (perhaps empty) lists points, x y z,
@@ -29,12 +29,12 @@ struct world {
     aabb box;
     vec3 *inside;
     size_t inside_count;
-    struct scene bvh, linear, embree;
+    struct scene bvh, wide, linear, embree;
     bool has_embree;
 };
 
 struct counts {
-    uint64_t hits, linear_differs, embree_differs;
+    uint64_t hits, wide_differs, linear_differs, embree_differs;
     uint64_t any_differs; /* between the BVH's nearest hit and anyone's any */
     uint64_t from_inside, leaks;
 };
@@ -88,6 +88,7 @@ static void make_world(struct world *w, const char *mesh, const char *inside)
         w->box = aabb_include(w->box, w->mesh.positions[i]);
     read_inside(w, inside);
     w->bvh = make_scene(w, ACCEL_BVH);
+    w->wide = make_scene(w, ACCEL_WIDE);
     w->linear = make_scene(w, ACCEL_LINEAR);
     w->has_embree = accel_available(ACCEL_EMBREE);
     if (w->has_embree)
@@ -168,13 +169,11 @@ static void tell(const char *what, uint64_t index, const ray *r,
                 (unsigned)a->primitive, (double)b->t, (unsigned)b->primitive);
 }
 
-/* The nearest hit with the mesh's own number of the triangle; on a miss t is
- * infinite. */
+/* The nearest hit; on a miss t is infinite. */
 static struct scene_hit nearest(const struct scene *s, const ray *r)
 {
     struct scene_hit hit = {UINT32_MAX, INFINITY, 0.0f, 0.0f};
-    if (scene_nearest(s, r, &hit))
-        hit.primitive = s->primitives[hit.primitive].triangle;
+    scene_nearest(s, r, &hit);
     return hit;
 }
 
@@ -212,6 +211,7 @@ static void cast(const struct world *w, uint64_t seed, uint64_t index,
     uint64_t none = 0;
     c->hits += hit.t < INFINITY;
     compare(&w->bvh, "bvh", &start, &r, index, &hit, &none, c);
+    compare(&w->wide, "wide", &start, &r, index, &hit, &c->wide_differs, c);
     if (linear_too)
         compare(&w->linear, "linear", &start, &r, index, &hit,
                 &c->linear_differs, c);
@@ -232,12 +232,13 @@ static void print(const struct world *w, uint64_t rays, uint64_t linear_rays,
 {
     printf("{\"triangles\": %u, \"rays\": %" PRIu64
            ", \"linear_rays\": %" PRIu64 ", \"embree\": %s, \"hits\": %" PRIu64
-           ", \"linear_differs\": %" PRIu64 ", \"embree_differs\": %" PRIu64
-           ", \"any_differs\": %" PRIu64 ", \"from_inside\": %" PRIu64
-           ", \"leaks\": %" PRIu64 "}\n",
+           ", \"wide_differs\": %" PRIu64 ", \"linear_differs\": %" PRIu64
+           ", \"embree_differs\": %" PRIu64 ", \"any_differs\": %" PRIu64
+           ", \"from_inside\": %" PRIu64 ", \"leaks\": %" PRIu64 "}\n",
            (unsigned)w->mesh.triangle_count, rays, linear_rays,
-           w->has_embree ? "true" : "false", c->hits, c->linear_differs,
-           c->embree_differs, c->any_differs, c->from_inside, c->leaks);
+           w->has_embree ? "true" : "false", c->hits, c->wide_differs,
+           c->linear_differs, c->embree_differs, c->any_differs, c->from_inside,
+           c->leaks);
 }
 
 int main(int argc, char *argv[])

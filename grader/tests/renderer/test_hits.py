@@ -32,20 +32,25 @@ class Workshop:
 
     folder: Path
 
-    def program(self, source: str = "", old: str = "", new: str = "") -> Path:
-        """hits, with a text in one source (src/...) replaced."""
+    def program(
+        self, source: str = "", old: str = "", new: str = "", users: tuple[str, ...] = ()
+    ) -> Path:
+        """hits, with a text in one source (src/...) replaced; for a header, in its users only."""
         objects = _words("list-objects")
-        changed = []
+        changed: list[str] = []
         if source:
             text = (ROOT / source).read_text()
             assert text.count(old) == 1, f"{source} no longer says {old!r} once"
-            mutant = self.folder / Path(source).name
+            mutant = self.folder / "src" / Path(source).relative_to("src")
+            mutant.parent.mkdir(parents=True, exist_ok=True)
             mutant.write_text(text.replace(old, new))
-            objects = [path for path in objects if not path.endswith(f"{mutant.stem}.o")]
-            changed = [str(mutant)]
+            changed = [f"-I{self.folder / 'src'}", *users] if users else [str(mutant)]
+            gone = {f"/{Path(path).stem}.o" for path in users or (source,)}
+            objects = [path for path in objects if not any(path.endswith(o) for o in gone)]
         out = self.folder / f"hits{len(list(self.folder.glob('hits*')))}"
         main = str(ROOT / "grader" / "tests" / "renderer" / "hits.c")
-        command = [*_words("list-compiler"), *changed, main, *objects]
+        compiler, *options = _words("list-compiler")
+        command = [compiler, *changed, *options, main, *objects]
         subprocess.run([*command, *_words("list-libraries"), "-o", str(out)], cwd=ROOT, check=True)
         return out
 
@@ -90,6 +95,7 @@ def test_all_accelerators_agree_and_nothing_leaks(
     assert counts["rays"] == RAYS
     assert counts["hits"] > RAYS / 2
     assert counts["linear_rays"] >= min(RAYS, 75)
+    assert counts["wide_differs"] == 0
     assert counts["linear_differs"] == 0
     assert counts["embree_differs"] == 0
     assert counts["any_differs"] == 0
@@ -121,8 +127,26 @@ def test_a_box_that_is_too_small_shows(workshop: Workshop, meshes: dict[str, Hit
 def test_the_first_of_equally_near_triangles_is_hit_whatever_the_order(
     workshop: Workshop, meshes: dict[str, HitMesh]
 ) -> None:
-    program = workshop.program("src/scene/scene.c", "p->triangle < q->triangle", "true")
-    assert workshop.hits(program, meshes["cube"], 20_000)["linear_differs"] > 0
+    users = ("src/scene/scene.c", "src/accel/wide.c")
+    rule = "return a->primitive < b->primitive;"
+    program = workshop.program("src/accel/nearest.h", rule, "return true;", users)
+    counts = workshop.hits(program, meshes["cube"], 20_000)
+    assert counts["linear_differs"] > 0
+    assert counts["wide_differs"] > 0
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("boulder", "box_width = 0x1p-21f", "box_width = -0x1p-9f"),
+        ("boulder", "triangle_width = 0x1p-20f", "triangle_width = -0x1p-12f"),
+    ],
+)
+def test_a_beam_that_is_too_thin_shows(
+    workshop: Workshop, meshes: dict[str, HitMesh], name: str, old: str, new: str
+) -> None:
+    program = workshop.program("src/accel/beam.c", old, new)
+    assert workshop.hits(program, meshes[name], 20_000)["wide_differs"] > 0
 
 
 def test_a_build_without_embree_refuses_it_by_name(tmp_path: Path) -> None:

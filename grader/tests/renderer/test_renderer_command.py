@@ -136,10 +136,10 @@ def test_statistics_are_json_and_agree_with_the_run(tmp_path: Path) -> None:
     samples = 24 * 20 * 2
     assert stats["samples"] == stats["rays"]["camera"] == samples
     assert 0 < stats["rays"]["shadow"] <= samples * 1
-    assert stats["accel"] == "bvh" and stats["threads"] == 2
+    assert stats["accel"] == "wide" and stats["threads"] == 2
     assert stats["primitives"] > 20 and 0 < stats["bvh_nodes"] < 2 * stats["primitives"]
-    assert stats["boxes_tested"] > samples
-    assert samples > 0 < stats["leaves_visited"] <= stats["primitives_tested"]
+    assert stats["boxes_tested"] > samples and stats["boxes_tested"] % 8 == 0
+    assert 0 < stats["leaves_visited"] == stats["primitives_tested"] / 8
     times = ("load_seconds", "build_seconds", "render_seconds", "samples_per_second")
     assert all(stats[key] > 0 for key in (*times, "peak_memory_bytes"))
 
@@ -148,6 +148,14 @@ def test_statistics_may_go_to_standard_output(tmp_path: Path) -> None:
     done = run(small_scene(tmp_path), "--stats", "-", "-o", "a.exr", cwd=tmp_path)
     assert json.loads(done.stdout)["samples"] == 12 * 10 * 3
     assert names(tmp_path) == {"scene.json", "a.exr"}
+
+
+def test_the_bvh_counts_box_by_box(tmp_path: Path) -> None:
+    arguments = [*SMALL, "--accel", "bvh", "--stats", "-", "-o", "a.exr"]
+    stats = json.loads(run(CORNELL, *arguments, cwd=tmp_path).stdout)
+    assert stats["accel"] == "bvh" and 0 < stats["bvh_nodes"] < 2 * stats["primitives"]
+    assert stats["boxes_tested"] > stats["samples"]
+    assert 0 < stats["leaves_visited"] <= stats["primitives_tested"]
 
 
 def test_linear_tests_every_primitive(tmp_path: Path) -> None:

@@ -92,18 +92,22 @@ def soup_scene(folder: Path) -> Path:
     return write_scene(folder, scene)
 
 
-def test_the_tree_finds_what_testing_everything_finds(tmp_path: Path) -> None:
+@pytest.mark.parametrize("accel", ["wide", "bvh"])
+def test_the_tree_finds_what_testing_everything_finds(tmp_path: Path, accel: str) -> None:
     scene = soup_scene(tmp_path)
     size = ("--resolution", "48x48", "--spp", "3")
-    tree = render(scene, tmp_path, *size, "--accel", "bvh")
+    tree = render(scene, tmp_path, *size, "--accel", accel)
     everything = render(scene, tmp_path, *size, "--accel", "linear")
     assert (tree.sum(axis=-1) > 0).mean() > 0.3
     assert np.array_equal(tree, everything)
 
 
-def test_the_tree_over_a_fine_mesh_finds_what_testing_everything_finds(tmp_path: Path) -> None:
+@pytest.mark.parametrize("accel", ["wide", "bvh"])
+def test_the_tree_over_a_fine_mesh_finds_what_testing_everything_finds(
+    tmp_path: Path, accel: str
+) -> None:
     size = ("--resolution", "400x400", "--spp", "1", "--crop", "190,180,206,188")
-    tree = render(KNOT, tmp_path, *size, "--accel", "bvh")
+    tree = render(KNOT, tmp_path, *size, "--accel", accel)
     everything = render(KNOT, tmp_path, *size, "--accel", "linear")
     assert tree.any()
     assert np.array_equal(tree, everything)

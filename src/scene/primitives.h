@@ -1,0 +1,28 @@
+/* primitives.h - all that rays can hit in a scene, one by one.
+ *
+ * Primitives are numbered in the order of the file, object by object, a mesh's
+ * triangles in the mesh's order. */
+#ifndef RAYBOOK_SCENE_PRIMITIVES_H
+#define RAYBOOK_SCENE_PRIMITIVES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/box.h"
+#include "scene/scene.h"
+
+/* Fills primitive_count and first_primitive, which the others need. False, with
+ * *err filled, when there are too many. */
+bool primitives_count(struct scene *scene, struct error *err);
+
+/* The object that a primitive belongs to. */
+uint32_t primitive_object(const struct scene *scene, uint32_t primitive);
+
+/* Its corners; false if it is no triangle. The pointer is to a struct scene:
+ * these two are what wide_build asks. */
+bool primitive_corners(const void *scene, uint32_t primitive, vec3 corners[3]);
+
+/* The box of a primitive, a triangle or not. */
+aabb primitive_box(const void *scene, uint32_t primitive);
+
+#endif
