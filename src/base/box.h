@@ -20,15 +20,29 @@ static inline aabb aabb_empty(void)
     return box;
 }
 
+/* Not vec3_min and vec3_max, which mind NaN at the price of a call for each
+ * component: nothing here is NaN. */
+static inline vec3 aabb_lesser(vec3 a, vec3 b)
+{
+    return vec3_make(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y,
+                     a.z < b.z ? a.z : b.z);
+}
+
+static inline vec3 aabb_greater(vec3 a, vec3 b)
+{
+    return vec3_make(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y,
+                     a.z > b.z ? a.z : b.z);
+}
+
 static inline aabb aabb_union(aabb a, aabb b)
 {
-    aabb box = {vec3_min(a.lower, b.lower), vec3_max(a.upper, b.upper)};
+    aabb box = {aabb_lesser(a.lower, b.lower), aabb_greater(a.upper, b.upper)};
     return box;
 }
 
 static inline aabb aabb_include(aabb a, vec3 point)
 {
-    aabb box = {vec3_min(a.lower, point), vec3_max(a.upper, point)};
+    aabb box = {aabb_lesser(a.lower, point), aabb_greater(a.upper, point)};
     return box;
 }
 
