@@ -87,10 +87,14 @@ descend(const struct query *q, struct waiting *end, struct waiting *nearest)
 
 //> wide.pack: Test eight triangles
 /* perhaps: where a ray may hit each triangle at the earliest, INFINITY where
- * it certainly does not. Seen along the ray the origin must lie on the same
- * side of all three edges, but for the beam's width: each of the products is
- * off by no more than the width times the size of the other factor. In depth
- * the triangle lies between its corners. NaN lanes fail the comparisons. */
+ * it certainly does not. NaN lanes fail the comparisons.
+ *
+ * Seen along the ray, a = (ax, ay), b and c are the corners and the ray is the
+ * origin. u, v and s, twice the areas that it spans with the edges, must have
+ * one sign. A corner that is off by e moves an area by no more than e times
+ * the size of the other corner, and e^2; with the products' own rounding,
+ * that is less than error. In depth a point of the triangle lies between the
+ * corners. */
 static inline void try_triangles(const struct wide_pack *restrict p,
                                  const struct query *q,
                                  float perhaps[restrict WIDE])
@@ -114,9 +118,9 @@ static inline void try_triangles(const struct wide_pack *restrict p,
         float by = multiply_add(sy, bz, qy[i] - oy);
         float cx = multiply_add(sx, cz, rx[i] - ox);
         float cy = multiply_add(sy, cz, ry[i] - oy);
-        float u = cx * by - cy * bx;
-        float v = ax * cy - ay * cx;
-        float s = bx * ay - by * ax;
+        float u = multiply_add(cx, by, -(cy * bx));
+        float v = multiply_add(ax, cy, -(ay * cx));
+        float s = multiply_add(bx, ay, -(by * ax));
         float size = fabsf(ax) + fabsf(ay) + fabsf(bx) + fabsf(by) +
                      (fabsf(cx) + fabsf(cy));
         float error = multiply_add(width, size, width * width);
