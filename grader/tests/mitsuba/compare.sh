@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# compare.py in an environment of its own, build/mitsuba-venv, with the packages of
-# requirements.lock: Mitsuba is too large to be put into everybody's build/venv.
+# compare.py in an environment of its own (environment.sh).
 #
 #   compare.sh [--raybook build/raybook] [--spp 1024] [scene.json ...]    compare.py's arguments
 #
@@ -11,19 +10,6 @@ set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../../.." && pwd)
-venv=$root/build/mitsuba-venv
-
-key() { echo "$root"; cat "$here/requirements.lock"; }
-
-make_venv() {
-    local python=${PYTHON:-$root/build/venv/bin/python}
-    echo "Mitsuba and its kin into build/mitsuba-venv (500 MB)"
-    rm -f "$venv/lock.stamp"
-    "$python" -m venv --clear "$venv"
-    "$venv/bin/python" -m pip --disable-pip-version-check install --quiet --no-input \
-        --only-binary :all: --require-hashes -r "$here/requirements.lock"
-    key >"$venv/lock.stamp"
-}
 
 # The newest library of LLVM 17 or later, by the name that Debian's packages give it.
 find_llvm() {
@@ -48,6 +34,6 @@ if [ -z "${DRJIT_LIBLLVM_PATH:-}" ]; then
     }
 fi
 export DRJIT_LIBLLVM_PATH
-key | cmp -s - "$venv/lock.stamp" 2>/dev/null || make_venv
+"$here/environment.sh"
 export PYTHONPATH=$root/grader
-exec "$venv/bin/python" "$here/compare.py" "$@"
+exec "$root/build/mitsuba-venv/bin/python" "$here/compare.py" "$@"

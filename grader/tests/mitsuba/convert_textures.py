@@ -107,7 +107,7 @@ def convert_material(material: Plugin, texture: Callable[[str], Plugin]) -> Plug
 
 
 def _rough_conductor(material: Plugin, texture: Callable[[str], Plugin]) -> Plugin:
-    outside = np.array(material["etaI"])
+    outside = np.array(material.get("etaI", [1] * 3))
     bsdf = {
         "type": "roughconductor",
         "distribution": "ggx",

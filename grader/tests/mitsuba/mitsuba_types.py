@@ -14,14 +14,19 @@ Plugin = dict[str, Any]
 """What `mitsuba.load_dict` reads."""
 
 
-def load_mitsuba() -> Any:
-    """The module, its variant set."""
+def find_llvm() -> bool:
+    """Where Mitsuba's llvm variants find LLVM, unless the environment says so already."""
     found = sorted(glob.glob("/usr/lib/*/libLLVM.so.*"))
     if found:
         os.environ.setdefault("DRJIT_LIBLLVM_PATH", found[-1])
+    return "DRJIT_LIBLLVM_PATH" in os.environ
+
+
+def load_mitsuba() -> Any:
+    """The module, its variant set."""
+    llvm = find_llvm()
     mi = import_module("mitsuba")
     if mi.variant() is None:
-        llvm = "DRJIT_LIBLLVM_PATH" in os.environ
         mi.set_variant("llvm_ad_rgb" if llvm else "scalar_rgb")
     return mi
 
