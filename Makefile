@@ -123,6 +123,11 @@ mitsuba: ## [ARGS="--spp 4096"] compares our pictures with Mitsuba 3's, in a ven
 	@$(MAKE) -s $(program)
 	@grader/tests/mitsuba/compare.sh --raybook "$(program)" $(ARGS)
 
+bench: ## [QUICK=1] [ARGS="--only rays"] speed beside Embree and Mitsuba 3: build/bench/bench.md
+	@.setup/setup.sh
+	@$(MAKE) -s $(program) build/meshes/done kit
+	@$(python) grader/tests/bench/bench.py $(if $(QUICK),--quick,--full) $(ARGS)
+
 judge-table: ## [ARGS="--looks 5"] the verdict on a small bias, on mere noise, and on half-right work
 	@.setup/setup.sh
 	@$(MAKE) kit
@@ -163,5 +168,5 @@ clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
 .PHONY: help setup build render test format check-format check-python check watch hint \
-    debug handout grade museum calibrate references kit objects variance mitsuba judge-table \
+    debug handout grade museum calibrate references kit objects variance mitsuba bench judge-table \
     class fuzz kill-table hostile cluster-table simulate clean
