@@ -18,6 +18,7 @@ class Effort:
     side: int  # of the pictures that are compared, in pixels
     seeds: int  # pictures of each renderer
     spp: int
+    samplers: tuple[str, ...]  # Mitsuba's at its best: the one that is best for it
     variance_rows: bool  # all of variance.py's, not only what has a goal
     obj_triangles: int
     modules: int  # that the grader judges
@@ -34,6 +35,7 @@ FULL = Effort(
     side=256,
     seeds=8,
     spp=32,
+    samplers=("independent", "multijitter", "ldsampler"),
     variance_rows=True,
     obj_triangles=1_000_000,
     modules=20,
@@ -50,6 +52,7 @@ QUICK = Effort(
     side=128,
     seeds=4,
     spp=16,
+    samplers=("multijitter",),
     variance_rows=False,
     obj_triangles=1_000_000,
     modules=3,
@@ -66,6 +69,7 @@ TINY = Effort(
     side=16,
     seeds=2,
     spp=4,
+    samplers=("independent",),
     variance_rows=False,
     obj_triangles=2_000,
     modules=1,

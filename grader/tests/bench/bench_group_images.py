@@ -1,8 +1,8 @@
 """Whole pictures beside Mitsuba 3's: groups `images` (equal samples) and `variance x time` (each
 at its best).
 
-A ratio only counts where the two pictures are the same within noise: each channel's mean, and pixel
-by pixel (pixel_bias.py, as in `make mitsuba`).
+A ratio only counts where the two pictures are the same within noise, or nearly so: each channel's
+mean, and pixel by pixel (pixel_bias.py). `make mitsuba` is the stricter comparison.
 """
 
 from __future__ import annotations
@@ -24,11 +24,9 @@ sys.path.insert(0, str(MITSUBA))
 from pixel_bias import pixel_bias
 
 VARIANTS = ("scalar_rgb", "llvm_ad_rgb")
-SAMPLERS = ("independent", "multijitter")
-"""Mitsuba's at its best: the one of these that needs less time for the same variance."""
-
 MEAN_LIMIT = 0.005
-DEVIATIONS = 4.0
+PIXEL_LIMIT = 0.01
+DEVIATIONS = 5.0
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
@@ -57,7 +55,7 @@ def _rows(
         yield speed.missing(f"Mitsuba: {error}")
     try:
         duel = Duel(scene, scratch, effort, variant, best=True)
-        found = [best_row(best, duel.fight(sampler), sampler) for sampler in SAMPLERS]
+        found = [best_row(best, duel.fight(sampler), sampler) for sampler in effort.samplers]
         yield min(found, key=lambda row: (bool(row.fault), row.ratio or 0))
     except Failed as error:
         yield best.missing(f"Mitsuba: {error}")
@@ -171,7 +169,8 @@ def compare(
         f"means differ by {100 * difference[channel]:+.2f} % ± {100 * error[channel]:.2f}, "
         f"pixels by {100 * bias.rms:.1f} % ({bias.deviations:+.1f}σ)"
     )
-    return text, bool(close.all()) and bias.fine
+    same = bias.rms <= PIXEL_LIMIT or bias.deviations <= DEVIATIONS
+    return text, bool(close.all()) and same
 
 
 def thread_rows(effort: Effort) -> Iterator[Row]:
