@@ -1,16 +1,15 @@
 """A filter over the footprint beside more samples: group `textures`.
 
-The picture that everything converges to is the one of bilinear lookups with very many samples. At a
-few samples a filter as wide as the pixel's footprint is nearer to it, though it never quite gets
-there; how long must plain lookups go on until they are as near?
+Bilinear lookups with very many samples are what every way converges to, or nearly: a filter is a
+little too wide, and stays so. With one sample a pixel it is nearer to that picture than one lookup
+is; how long must lookups go on until they are as near?
 """
 
 from __future__ import annotations
 
-import math
 import tempfile
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -18,11 +17,15 @@ import numpy.typing as npt
 from bench_effort import Effort
 from bench_renderers import Pixels, ours
 from bench_rows import Row, spread
-from bench_scenes import BILINEAR, INDEPENDENT, ONE_BOUNCE, BenchScene, merged
+from bench_scenes import BILINEAR, SOBOL, BenchScene, Json, merged
 
-PLAIN = BenchScene("bilinear", "textures.json", merged(merged(BILINEAR, ONE_BOUNCE), INDEPENDENT))
-FILTERED = BenchScene("ewa", "textures.json", merged(ONE_BOUNCE, INDEPENDENT))
-FEW = 4  # samples a pixel of the filtered picture
+DIRECT: Json = {"integrator": {"type": "direct", "light_selection": "all"}}
+"""The lights are no source of noise here."""
+
+FILTERS = ("trilinear", "ewa")
+LOOKUPS = "bilinear"
+TAKEN = (1, 2, 4, 8, 16)  # samples a pixel
+REFERENCE = 64  # times as many as the most of these
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
@@ -35,13 +38,8 @@ class Point:
     error: float
 
 
-@dataclass(frozen=True)
-class Curves:
-    """Errors of both, for the plot."""
-
-    filtered: Sequence[Point]
-    plain: Sequence[Point]
-
+Curves = dict[str, list[Point]]
+"""By the filter's name."""
 
 _measured: list[Curves] = []
 
@@ -52,54 +50,58 @@ def texture_curves() -> Curves | None:
 
 
 def texture_rows(effort: Effort) -> Iterator[Row]:
-    """Seconds for the same error, the plain lookups' over the filter's."""
+    """Seconds for the same error: the lookups' over the filter's with one sample a pixel."""
     found = curves(effort)
     _measured.append(found)
-    row = Row("textures", "mipmap and EWA", "textures", f"{FEW} samples a pixel", "supersampling")
-    one = next(point for point in found.filtered if point.spp == FEW)
-    equal = seconds_for(found.plain, one.error)
-    spp = equal / found.plain[0].seconds * found.plain[0].spp
-    row = replace(
-        row, figure=one.seconds * 1e3, unit="ms", note=f"as near with {spp:.0f} plain samples"
-    )
-    ratio = equal / one.seconds
-    yield replace(row, ratio=ratio, low=ratio, high=ratio)
+    for name in FILTERS:
+        one = found[name][0]
+        equal = seconds_for(found[LOOKUPS], one.error)
+        ratio = equal / one.seconds
+        yield Row(
+            "textures", name, "textures", "at equal error", "bilinear lookups",
+            figure=one.seconds * 1e3, unit="ms", ratio=ratio, low=ratio, high=ratio,
+            note=f"mean square error {one.error:.2g}",
+        )  # fmt: skip
+
+
+def scene_with(name: str) -> BenchScene:
+    """The textured scene with one filter for all its textures."""
+    textures = {key: {"filter": name} for key in BILINEAR["textures"]}
+    return BenchScene(name, "textures.json", merged(merged(DIRECT, SOBOL), {"textures": textures}))
 
 
 def curves(effort: Effort) -> Curves:
-    """Both ways at several numbers of samples, measured against the truth."""
-    resolution = (3 * effort.side // 2, effort.side)
-    most = 64 if effort.side < 64 else 1024 if effort.side < 200 else 4096
-    counts = [2**k for k in range(0, int(math.log2(most)) - 3)]
+    """All ways at several numbers of samples, measured against the truth."""
+    side = effort.side
+    resolution = (3 * side // 2, side)
+    found: Curves = {}
     with tempfile.TemporaryDirectory(prefix="raybook-bench-") as folder:
         scratch = Path(folder)
-        plain, filtered = (s.write(scratch, resolution) for s in (PLAIN, FILTERED))
-        with ours(plain, scratch, resolution) as one, ours(filtered, scratch, resolution) as other:
-            truth = _light(one.shoot(999, most).pixels)
-            shots = {
-                name: [[r.shoot(seed, spp) for seed in range(3)] for spp in counts]
-                for name, r in (("plain", one), ("filtered", other))
-            }
-    points = {
-        name: [
-            Point(
-                spp,
-                spread([shot.cpu for shot in same]).median,
-                float(np.mean([(_light(shot.pixels) - truth) ** 2 for shot in same])),
-            )
-            for spp, same in zip(counts, all_of_them, strict=True)
-        ]
-        for name, all_of_them in shots.items()
-    }
-    return Curves(points["filtered"], points["plain"])
+        with ours(scene_with(LOOKUPS).write(scratch, resolution), scratch, resolution) as renderer:
+            truth = _light(renderer.shoot(999, REFERENCE * TAKEN[-1]).pixels)
+        for name in (LOOKUPS, *FILTERS):
+            file = scene_with(name).write(scratch, resolution)
+            with ours(file, scratch, resolution) as renderer:
+                renderer.shoot(0, 1)
+                shots = {spp: [renderer.shoot(seed, spp) for seed in range(3)] for spp in TAKEN}
+            found[name] = [
+                Point(
+                    spp,
+                    spread([shot.cpu for shot in same]).median,
+                    float(np.mean([(_light(shot.pixels) - truth) ** 2 for shot in same])),
+                )
+                for spp, same in shots.items()
+            ]
+    return found
 
 
 def seconds_for(points: Sequence[Point], error: float) -> float:
-    """Where the curve reaches an error: on the straight line, in logarithms, through all points
-    (independent samples: error and time are inverse to each other)."""
-    products = [point.seconds * point.error for point in points]
-    return math.exp(float(np.mean(np.log(products)))) / error
+    """Where the curve reaches an error: between its points on straight lines in logarithms."""
+    errors = [-np.log(point.error) for point in points]
+    seconds = [np.log(point.seconds) for point in points]
+    return float(np.exp(np.interp(-np.log(error), errors, seconds)))
 
 
 def _light(pixels: Pixels) -> npt.NDArray[np.float64]:
-    return pixels.astype(float) @ LUMINANCE
+    light: npt.NDArray[np.float64] = pixels.astype(float) @ LUMINANCE
+    return light

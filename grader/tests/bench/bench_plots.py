@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 
@@ -11,12 +12,11 @@ matplotlib.use("svg")
 import matplotlib.pyplot as plt
 from bench_group_textures import Curves
 from bench_rows import Row
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 INK = "#767676"
 COLOURS = ("#3b8ac4", "#d0752b", "#5f9e4d", "#a86bb5")
-STYLE = {
+STYLE: Any = {
     "svg.fonttype": "none",
     "svg.hashsalt": "raybook",  # the same bytes each time
     "font.family": "sans-serif",
@@ -113,8 +113,14 @@ def _curves(curves: Curves | None) -> Figure | None:
     if curves is None:
         return None
     figure, axes = plt.subplots(figsize=(7, 3.6), layout="constrained")
-    _draw_curve(axes, curves, "plain", "bilinear lookups", COLOURS[1])
-    _draw_curve(axes, curves, "filtered", "mipmap and EWA", COLOURS[0])
+    for (name, points), colour in zip(curves.items(), COLOURS, strict=False):
+        seconds, errors = [p.seconds for p in points], [p.error for p in points]
+        axes.plot(seconds, errors, "o-", color=colour, ms=4, label=name)
+        for point in points:
+            axes.annotate(
+                str(point.spp), (point.seconds, point.error), xytext=(3, 4),
+                textcoords="offset points", fontsize=7,
+            )  # fmt: skip
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("seconds (the numbers: samples a pixel)")
@@ -122,14 +128,3 @@ def _curves(curves: Curves | None) -> Figure | None:
     axes.set_title("A filtered texture, and more samples instead", fontsize=11)
     axes.legend(frameon=False)
     return figure
-
-
-def _draw_curve(axes: Axes, curves: Curves, which: str, label: str, colour: str) -> None:
-    points = curves.plain if which == "plain" else curves.filtered
-    seconds, errors = [p.seconds for p in points], [p.error for p in points]
-    axes.plot(seconds, errors, "o-", color=colour, ms=4, label=label)
-    for point in points:
-        axes.annotate(
-            str(point.spp), (point.seconds, point.error), xytext=(3, 4),
-            textcoords="offset points", fontsize=7,
-        )  # fmt: skip
