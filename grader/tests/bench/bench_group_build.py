@@ -8,7 +8,7 @@ from typing import Any
 
 from bench_effort import Effort
 from bench_group_rays import NO_EMBREE
-from bench_machine import processors
+from bench_machine import busy, processors
 from bench_programs import ask, program
 from bench_rows import Row, ratios, spread
 
@@ -59,4 +59,4 @@ def _threads_row(row: Row, effort: Effort) -> Row:
     if labels[0] not in found:
         return row.missing(f"this build has no accelerator {row.kind}")
     one, two = (found[label]["wall"] for label in labels)
-    return replace(row, figure=spread(two).median).beside(ratios(one, two))
+    return replace(row, figure=spread(two).median, note=busy()).beside(ratios(one, two))

@@ -32,10 +32,11 @@ def ray_rows(effort: Effort) -> Iterator[Row]:
         for name, peer in CONTESTS:
             for kind in KINDS:
                 row = Row("rays", name, mesh, kind, peer, unit="Mrays/s")
-                yield _row(row, found["kinds"][kind], found["rays"])
+                yield ray_row(row, found["kinds"][kind], found["rays"])
 
 
-def _row(row: Row, kind: dict[str, Any], rays: int) -> Row:
+def ray_row(row: Row, kind: dict[str, Any], rays: int) -> Row:
+    """The row's figures, from what `bench cast` says of one kind of rays."""
     caster = CASTER_OF.get(row.name, row.name)
     if caster not in kind:
         return row.missing(f"this build has no accelerator {caster}")

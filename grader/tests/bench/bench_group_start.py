@@ -14,7 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bench_effort import Effort
-from bench_machine import processors
+from bench_machine import busy, processors
 from bench_programs import BUILD, ROOT, ask, program
 from bench_rows import Row, spread
 
@@ -27,7 +27,7 @@ LONGEST = 300.0
 def start_rows(effort: Effort) -> Iterator[Row]:
     """In a copy of the checkout, so that nothing here is built anew."""
     scene = "cornell-box"
-    row = Row("start", "", scene, unit="s")
+    row = Row("start", "", scene, unit="s", note=busy())
     with tempfile.TemporaryDirectory(prefix="raybook-bench-") as folder:
         copy = copy_checkout(Path(folder) / "raybook")
         cores = len(processors())

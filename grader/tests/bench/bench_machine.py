@@ -21,6 +21,12 @@ def describe() -> dict[str, str | int | float]:
     }
 
 
+def busy() -> str:
+    """What to say of a figure taken by the clock; empty: nothing but this ran."""
+    load = os.getloadavg()[0]
+    return f"load average {load:.1f}: others were at work" if load > 1.5 * len(processors()) else ""
+
+
 def processors() -> list[int]:
     """Those that this process may use."""
     return sorted(os.sched_getaffinity(0))

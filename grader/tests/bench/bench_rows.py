@@ -44,7 +44,7 @@ class Goal:
         found = row.ratio if self.of == "ratio" else row.figure
         if found is None:
             return False
-        return found >= self.value if self.at_least else found <= self.value
+        return bool(found >= self.value if self.at_least else found <= self.value)
 
     def __str__(self) -> str:
         sign = "≥" if self.at_least else "≤"
@@ -100,16 +100,21 @@ class Row:
             "scene": self.scene,
             "kind": self.kind,
             "peer": self.peer,
-            "figure": self.figure,
+            "figure": _plain(self.figure),
             "unit": self.unit,
-            "ratio": self.ratio,
+            "ratio": _plain(self.ratio),
             "goal": None if goal is None else goal.value,
             "met": self.met,
             "beyond": None if goal is None else goal.beyond,
             "goal_of": None if goal is None else goal.of,
             "at_least": None if goal is None else goal.at_least,
-            "low": self.low,
-            "high": self.high,
+            "low": _plain(self.low),
+            "high": _plain(self.high),
             "note": self.note,
             "fault": self.fault,
         }
+
+
+def _plain(value: float | None) -> float | None:
+    """A number of Python's own, whatever it was computed with; JSON has no other."""
+    return None if value is None else float(value)

@@ -18,7 +18,7 @@ from bench_effort import TINY
 from bench_goals import TARGETS, with_goals
 from bench_group_build import build_rows
 from bench_group_images import Pictures, best_row, compare, image_rows, quotient, speed_row
-from bench_group_rays import KINDS, ray_rows, work_rows
+from bench_group_rays import KINDS, NO_EMBREE, ray_row, ray_rows, work_rows
 from bench_group_start import grid
 from bench_group_textures import Point, scene_with, seconds_for
 from bench_plots import plots
@@ -82,7 +82,7 @@ def test_numbers_have_three_digits() -> None:
 
 def shots(light: float, noise: float, seconds: float, seed: int) -> list[Shot]:
     random = np.random.default_rng(seed)
-    shape = (24, 24, 3)
+    shape = (64, 64, 3)
     return [
         Shot(random.normal(light, noise, shape).astype(np.float32), seconds, seconds)
         for _ in range(8)
@@ -97,7 +97,7 @@ def test_equal_pictures_are_the_same_but_for_noise() -> None:
 def test_other_pictures_are_not_the_same(where: str) -> None:
     one, other = ([s.pixels for s in shots(1, 0.05, 1, seed)] for seed in (1, 2))
     for pixels in one:
-        pixels[: None if where == "everywhere" else 6] *= 1.05
+        pixels[: None if where == "everywhere" else 16] *= 1.05
     assert not compare(one, other)[1]
 
 
@@ -127,6 +127,27 @@ def test_seconds_for_an_error_lie_between_the_points() -> None:
     points = [Point(1, 1.0, 1e-2), Point(4, 4.0, 1e-3), Point(16, 16.0, 1e-4)]
     assert seconds_for(points, 1e-3) == pytest.approx(4)
     assert seconds_for(points, 10**-2.5) == pytest.approx(2)
+
+
+# ---- rays ----
+
+
+def test_a_missing_peer_has_a_row_that_says_so() -> None:
+    row = Row("rays", "bvh", "knot", "primary", "embree")
+    ours = {"bvh": {"hits": 7, "differ": 0, "seconds": [1.0, 1.0]}}
+    found = ray_row(row, ours, 10)
+    assert (found.figure, found.ratio, found.fault) == (1e-5, None, NO_EMBREE)
+    assert ray_row(row, {}, 10).fault == "this build has no accelerator bvh"
+
+
+@pytest.mark.parametrize(("differ", "counts"), [(1, True), (2, False)])
+def test_rays_answered_in_another_way_do_not_count(differ: int, counts: bool) -> None:
+    row = Row("rays", "bvh", "knot", "primary", "embree", goal=Goal(0.5))
+    casters = {
+        "bvh": {"hits": 9000, "differ": 0, "seconds": [2.0, 2.0]},
+        "embree": {"hits": 9000, "differ": differ, "seconds": [1.2, 1.2]},
+    }
+    assert ray_row(row, casters, 10_000).met is counts
 
 
 # ---- goals, files ----
