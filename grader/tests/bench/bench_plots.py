@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib
 
@@ -14,7 +14,7 @@ from bench_group_textures import Curves
 from bench_rows import Row
 from matplotlib.figure import Figure
 
-INK = "#767676"
+INK = "#7f7f7f"
 COLOURS = ("#3b8ac4", "#d0752b", "#5f9e4d", "#a86bb5")
 STYLE: Any = {
     "svg.fonttype": "none",
@@ -30,11 +30,23 @@ STYLE: Any = {
 }
 
 
+OURS = "SAH BVH"
+
+
+class WorkRow(NamedTuple):
+    """A row of the group `work` that was measured."""
+
+    kind: str
+    peer: str
+    figure: float
+    ratio: float
+
+
 def plots(rows: Sequence[Row], curves: Curves | None, folder: Path) -> list[Path]:
     """Those for which there are measurements; the files written."""
     with plt.rc_context(STYLE):
         drawn = [
-            _ratios(rows, "rays", "Rays a second, beside Embree (1: as fast)", ("name", "scene")),
+            _ratios(rows, "rays", "Rays a second, beside Embree (1: as fast)", ("name",)),
             _ratios(rows, "images", "Samples a second, beside Mitsuba 3", ("peer",)),
             _ratios(
                 rows, "variance x time", "Time for the same noise, beside Mitsuba 3", ("peer",)
@@ -86,26 +98,28 @@ def _label(row: Row) -> str:
 
 
 def _work(rows: Sequence[Row]) -> Figure | None:
-    chosen = [row for row in rows if row.group == "work" and row.ratio and row.figure]
+    chosen = [
+        WorkRow(row.kind, row.peer, row.figure, row.ratio)
+        for row in rows
+        if row.group == "work" and row.ratio is not None and row.figure is not None
+    ]
     if not chosen:
         return None
     figure, axes = plt.subplots(figsize=(7, 3.2), layout="constrained")
     kinds = list(dict.fromkeys(row.kind for row in chosen))
     peers = list(dict.fromkeys(row.peer for row in chosen))
-    for k, peer in enumerate([*peers, "SAH BVH"]):
-        heights = []
-        for kind in kinds:
-            row = next(r for r in chosen if r.kind == kind and r.peer in (peer, peers[0]))
-            row = next((r for r in chosen if r.kind == kind and r.peer == peer), row)
-            assert row.figure is not None and row.ratio is not None
-            heights.append(row.figure * (row.ratio if peer in peers else 1))
+    tested = {(row.kind, row.peer): row.figure * row.ratio for row in chosen}
+    tested |= {(row.kind, OURS): row.figure for row in chosen}
+    for k, name in enumerate([*peers, OURS]):
+        heights = [tested[kind, name] for kind in kinds]
         places = [x + 0.27 * (k - 1) for x in range(len(kinds))]
-        bars = axes.bar(places, heights, width=0.25, color=COLOURS[k], label=peer)
+        bars = axes.bar(places, heights, width=0.25, color=COLOURS[k], label=name)
         axes.bar_label(bars, [f"{h:.0f}" for h in heights], color=INK, fontsize=8)
     axes.set_yscale("log")
+    axes.set_ylim(bottom=1)
     axes.set_xticks(range(len(kinds)), kinds)
     axes.set_title("Boxes and triangles tested a ray", fontsize=11)
-    axes.legend(frameon=False)
+    axes.legend(frameon=False, loc="upper left", bbox_to_anchor=(1, 1))
     return figure
 
 

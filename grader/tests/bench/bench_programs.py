@@ -31,7 +31,9 @@ def program(name: str = "bench", replaced: Mapping[str, Path] | None = None) -> 
         BUILD.mkdir(parents=True, exist_ok=True)
         files = [str(path) for path in (*sources, *objects)]
         command = [*_words("list-compiler"), f"-I{HERE}", *files, *_words("list-libraries")]
-        subprocess.run([*command, "-o", str(out)], cwd=ROOT, check=True)
+        aside = out.with_suffix(".new")
+        subprocess.run([*command, "-o", str(aside)], cwd=ROOT, check=True)
+        aside.replace(out)
     return out
 
 
