@@ -37,10 +37,10 @@ QUICK_SEEDS, FULL_SEEDS = 8, 24
 def sampling_rows(effort: Effort) -> Iterator[Row]:
     """Variance at equal samples, the plain way's over the better one's."""
     variance.prepare()
-    seeds = FULL_SEEDS if effort.variance_rows else QUICK_SEEDS
+    seeds = FULL_SEEDS if effort.long_rows else QUICK_SEEDS
     yield _row(variance.measure(SUNNY, seeds))
     for row in variance_rows.ROWS:
-        if effort.variance_rows:
+        if effort.long_rows:
             yield _row(variance.measure(row, seeds))
         elif row.better == POWER:
             yield _row(variance.measure(variance.quick(row), seeds))

@@ -19,7 +19,7 @@ from bench_goals import TARGETS, with_goals
 from bench_group_build import build_rows
 from bench_group_images import Pictures, best_row, compare, image_rows, quotient, speed_row
 from bench_group_rays import KINDS, NO_EMBREE, ray_row, ray_rows, work_rows
-from bench_group_start import grid
+from bench_group_start import copy_checkout, grid
 from bench_group_textures import Point, scene_with, seconds_for
 from bench_plots import plots
 from bench_renderers import Failed, Renderer, Shot
@@ -263,6 +263,12 @@ def test_scenes_name_files_that_are_there(tmp_path: Path) -> None:
     assert all(Path(item["path"]).is_absolute() for item in scene["objects"])
     textures = json.loads(scene_with("nearest").write(tmp_path, (8, 8)).read_text())["textures"]
     assert {texture["filter"] for texture in textures.values()} == {"nearest"}
+
+
+def test_the_copy_of_the_checkout_can_be_built(tmp_path: Path) -> None:
+    copy = copy_checkout(tmp_path / "copy")
+    assert (copy / "src/main.c").is_file() and (copy / ".setup/setup.sh").is_file()
+    assert not (copy / "build/raybook").exists()
 
 
 def test_changes_merge_as_in_the_renderer() -> None:
