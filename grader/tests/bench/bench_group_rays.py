@@ -65,7 +65,7 @@ def work_rows(effort: Effort) -> Iterator[Row]:
     sah = ask(program(), "work", mesh, effort.rays, "bvh")
     linear = ask(program(), "work", mesh, LINEAR_RAYS, "linear")
     some = ask(program(), "work", mesh, LINEAR_RAYS, "bvh")
-    median = ask(program("bench-median", {"accel/bvh.o": MEDIAN}), "work", mesh, effort.rays, "bvh")
+    median = ask(program("bench-median", ("accel/bvh.o", MEDIAN)), "work", mesh, effort.rays, "bvh")
     for kind in KINDS:
         row = Row("work", "bvh", mesh, kind, "linear", unit="nodes and triangles a ray")
         yield _work_row(row, sah, linear, kind, same=_hits(some) == _hits(linear))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import subprocess
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,13 +19,16 @@ ROOT = HERE.parents[2]
 BUILD = ROOT / "build" / "bench"
 
 
-def program(name: str = "bench", replaced: Mapping[str, Path] | None = None) -> Path:
-    """bench_main.c and its commands, up to date. `replaced`: sources that take the place of objects
-    of the renderer, which are named as "accel/bvh.o"; the program is called `name` then."""
-    replaced = replaced or {}
+@functools.cache
+def program(name: str = "bench", replaced: tuple[str, Path] | None = None) -> Path:
+    """bench_main.c and its commands, up to date. `replaced`: an object of the renderer, named as
+    "accel/bvh.o", and the source that takes its place; the program is called `name` then."""
     objects = [ROOT / path for path in _words("list-objects")]
-    objects = [path for path in objects if f"{path.parent.name}/{path.name}" not in replaced]
-    sources = [*sorted(HERE.glob("bench_*.c")), *replaced.values()]
+    sources = sorted(HERE.glob("bench_*.c"))
+    if replaced:
+        left_out, source = replaced
+        objects = [path for path in objects if f"{path.parent.name}/{path.name}" != left_out]
+        sources.append(source)
     out = BUILD / name
     if _is_older(out, [*objects, *sources, *HERE.glob("bench_*.h")]):
         BUILD.mkdir(parents=True, exist_ok=True)
