@@ -23,6 +23,8 @@ from raybook_grader.files import write_text
 
 FIRST = Path("build/out")
 LONGEST = 300.0
+OF_BENCH = {"ARGS", "QUICK", "SCENE", "VARIANT", "TODO", "CC", "OPT", "CFLAGS", "LDFLAGS", "V"}
+"""What may stand behind `make bench`, and would change the makes inside."""
 
 
 def start_rows(effort: Effort) -> Iterator[Row]:
@@ -70,7 +72,7 @@ def first_picture(checkout: Path) -> float:
     shutil.rmtree(out, ignore_errors=True)
     begun = time.monotonic()
     process = subprocess.Popen(
-        ["make", "-s", "render"], cwd=checkout, env=_environment(), start_new_session=True,
+        ["make", "-s", "render"], cwd=checkout, env=clean_environment(), start_new_session=True,
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     )  # fmt: skip
     try:
@@ -95,15 +97,21 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 def _timed(folder: Path, *command: str) -> tuple[float, float]:
     """Seconds by the clock, and of processor time."""
     begun, before = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(command, cwd=folder, env=_environment(), check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        command, cwd=folder, env=clean_environment(), check=True, stdout=subprocess.DEVNULL
+    )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return time.monotonic() - begun, cpu
 
 
-def _environment() -> dict[str, str]:
+def clean_environment() -> dict[str, str]:
     """Everything is installed: in this checkout. Without what a make around this may have set."""
-    kept = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "MFLAGS"))}
+    kept = {
+        k: v
+        for k, v in os.environ.items()
+        if not k.startswith(("MAKE", "MFLAGS")) and k not in OF_BENCH
+    }
     unity = os.environ.get("UNITY_ROOT") or str(ROOT / "build" / "unity")
     return {**kept, "RAYBOOK_VENV": str(ROOT / "build" / "venv"), "UNITY_ROOT": unity}
 

@@ -48,9 +48,7 @@ def plots(rows: Sequence[Row], curves: Curves | None, folder: Path) -> list[Path
         drawn = [
             _ratios(rows, "rays", "Rays a second, beside Embree (1: as fast)", ("name",)),
             _ratios(rows, "images", "Samples a second, beside Mitsuba 3", ("peer",)),
-            _ratios(
-                rows, "variance x time", "Time for the same noise, beside Mitsuba 3", ("peer",)
-            ),
+            _ratios(rows, "variance x time", "1 / (variance x time), beside Mitsuba 3", ("peer",)),
             _ratios(rows, "sampling", "Variance, plain over better", ("peer",), log=True),
             _work(rows),
             _curves(curves),

@@ -19,7 +19,7 @@ from bench_goals import TARGETS, with_goals
 from bench_group_build import build_rows
 from bench_group_images import Pictures, best_row, compare, image_rows, quotient, speed_row
 from bench_group_rays import KINDS, NO_EMBREE, ray_row, ray_rows, work_rows
-from bench_group_start import copy_checkout, grid
+from bench_group_start import clean_environment, copy_checkout, grid
 from bench_group_textures import Point, scene_with, seconds_for
 from bench_plots import plots
 from bench_renderers import Failed, Renderer, Shot
@@ -269,6 +269,12 @@ def test_the_copy_of_the_checkout_can_be_built(tmp_path: Path) -> None:
     copy = copy_checkout(tmp_path / "copy")
     assert (copy / "src/main.c").is_file() and (copy / ".setup/setup.sh").is_file()
     assert not (copy / "build/raybook").exists()
+
+
+def test_what_stands_behind_make_bench_is_not_handed_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ARGS", "--only start")
+    monkeypatch.setenv("MAKEFLAGS", "-s")
+    assert not {"ARGS", "MAKEFLAGS"} & clean_environment().keys()
 
 
 def test_changes_merge_as_in_the_renderer() -> None:
