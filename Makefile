@@ -77,6 +77,12 @@ debug: ## A=03 or SCENE=file.json, PIXEL=x,y: that pixel's paths, and where VARI
 	+@$(student) debug --assignment "$(A)" --pixel "$(PIXEL)" \
 	    --scene "$(if $(filter command line,$(origin SCENE)),$(SCENE))"
 
+book: ## [EDITION=student|instructor] [DRAFT=1] [ACCEPT=1] weaves the book into build/book/
+	@.setup/setup.sh all book
+	@$(MAKE) -s $(program) build/meshes/done
+	@$(python) -m raybook_grader.book $(if $(EDITION),--edition $(EDITION)) \
+	    $(if $(DRAFT),--draft) $(if $(ACCEPT),--accept)
+
 handout: ## [OUT=dir] [A=03] [REVEAL=01,02] writes the student edition
 	@.setup/setup.sh
 	@$(grader) handout "$(or $(OUT),build/handout)" $(if $(A),--assignment $(A)) \

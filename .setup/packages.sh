@@ -8,17 +8,18 @@ install=(apt-get install -y --no-install-recommends)
 # install_command NAMES: what a person can type.
 install_command() { echo "sudo ${install[*]}" "$(tr -s '\n ' ' ' <<<"$1" | sed 's/ $//')"; }
 
-# listed [required|optional]: names from packages.txt, for this checkout.
+# listed [required|optional|book]: names from packages.txt, for this checkout; the book's only if
+# they are asked for.
 listed() {
     local grader=0
     [ ! -d "$root/grader" ] || grader=1
     sed 's/#.*//' "$here/packages.txt" | awk -v want="${1:-}" -v grader="$grader" '
         NF && ($2 != "grader" || grader) {
-            kind = $2 == "optional" ? $2 : "required"
-            if (want == "" || want == kind) print $1 }'
+            kind = $2 == "optional" || $2 == "book" ? $2 : "required"
+            if (want == kind || (want == "" && kind != "book")) print $1 }'
 }
 
-# missing required|optional: the listed packages that are not installed.
+# missing required|optional|book: the listed packages that are not installed.
 missing() {
     local names installed
     mapfile -t names < <(listed "$1")

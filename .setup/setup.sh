@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what Raybook needs and is not there yet. Silent and quick when nothing is missing.
 #
-#   setup.sh [all | packages | python | unity ...]   these parts only; all by default
+#   setup.sh [all | packages | python | unity | book ...]   these parts only; all by default, which
+#                                    is all but the book's
 #   setup.sh --print-command                         the apt-get command for every package
 #
 # Each part is a file beside this one with NAME_ready (is there nothing to do?) and setup_NAME.
@@ -37,6 +38,8 @@ source "$here/packages.sh"
 source "$here/python.sh"
 # shellcheck source-path=SCRIPTDIR
 source "$here/unity.sh"
+# shellcheck source-path=SCRIPTDIR
+source "$here/book.sh"
 
 main() {
     local part parts=("$@") todo=()
@@ -45,7 +48,7 @@ main() {
         all) parts=(packages python unity) ;;
     esac
     for part in "${parts[@]}"; do
-        case $part in packages | python | unity) ;; *) die "no part '$part'; usage: see $0" ;; esac
+        case $part in packages | python | unity | book) ;; *) die "no part '$part'; usage: see $0" ;; esac
         "${part}_ready" || todo+=("$part")
     done
     for part in "${todo[@]}"; do

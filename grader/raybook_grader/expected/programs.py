@@ -1,6 +1,7 @@
-"""The reference renderer, with some exercises as stubs where a picture asks for it.
+"""The reference renderer, with some exercises as stubs or some files replaced where a picture asks
+for it.
 
-Only the files that hold the stubs are compiled again; the rest is the build that `make check` uses.
+Only the files concerned are compiled again; the rest is the build that `make check` uses.
 """
 
 from __future__ import annotations
@@ -27,6 +28,33 @@ def reference_program(root: Path, stubs: frozenset[str] = frozenset()) -> Path:
     """The program built from the checkout ``root``, up to date. ``stubs`` names exercises."""
     plain = root / _make(root, "build/meshes/done", "programs").splitlines()[-1]
     return _with_stubs(root, stubs) if stubs else plain
+
+
+def variant_program(root: Path, files: Mapping[str, bytes]) -> Path:
+    """The program with these contents in place of the files of the same names ("src/...")."""
+    changed = {name: text for name, text in files.items() if (root / name).read_bytes() != text}
+    plain = reference_program(root)
+    if not changed:
+        return plain
+    words = (part for name in sorted(changed) for part in (name.encode(), changed[name]))
+    key = hashlib.sha256(b"\0".join(words)).hexdigest()[:16]
+    folder = root / "build" / "expected" / f"variant-{key}"
+    folder.mkdir(parents=True, exist_ok=True)
+    with locked(folder / ".lock"):
+        return _link(root, folder, _variant_objects(root, folder, changed))
+
+
+def _variant_objects(root: Path, folder: Path, files: Mapping[str, bytes]) -> dict[str, str]:
+    """The objects of these files' contents; by module."""
+    compiler = shlex.split(_make(root, "-s", "list-compiler"))
+    objects: dict[str, str] = {}
+    for name, text in files.items():
+        source = folder / name
+        source.parent.mkdir(parents=True, exist_ok=True)
+        source.write_bytes(text)
+        _run([*compiler, "-c", str(source), "-o", str(source.with_suffix(".o"))], root)
+        objects[_module(name)] = str(source.with_suffix(".o"))
+    return objects
 
 
 def _with_stubs(root: Path, stubs: frozenset[str]) -> Path:

@@ -1,0 +1,27 @@
+"""`python -m raybook_grader.book`: what `make book` runs."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from .build import build_book
+from .editions import Edition
+from .sphinx_run import Settings
+
+
+def main(words: list[str] | None = None) -> int:
+    """Exit code 0: the book is made and sound; 1: it is not."""
+    parser = argparse.ArgumentParser(prog="raybook_grader.book", description=__doc__)
+    parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parents[3])
+    parser.add_argument("--edition", type=Edition, choices=list(Edition), help="one edition only")
+    parser.add_argument("--draft", action="store_true", help="pages only; faults are only told")
+    parser.add_argument("--accept", action="store_true", help="the figures are as they should be")
+    asked = parser.parse_args(words)
+    editions = [asked.edition] if asked.edition else list(Edition)
+    return build_book(Settings(asked.root.resolve(), asked.draft, asked.accept), editions)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,94 @@
+"""Draws the pictures of the book with the renderer, or takes them from build/book/figures."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from ..course import load_course
+from ..errors import BadInput
+from ..expected.programs import reference_program, variant_program
+from ..files import write_bytes, write_text
+from ..literate.tree import load_tree
+from ..museum.exhibits import exhibits_of
+from .figure_spec import FigureSpec, Picture, mistake_file, picture_key
+
+_QUALITY = 92
+_CELLS = (8, 6)
+_LONGEST = 600  # seconds
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A picture in the cache. `pixels` is a hash of them; `means` are the mean colours of 8 x 6
+    cells in hexadecimal, which differ little where pictures do."""
+
+    file: Path
+    pixels: str
+    means: str
+    width: int
+    height: int
+
+
+def draw(root: Path, cache: Path, spec: FigureSpec, picture: Picture) -> Drawn:
+    """The picture, up to date; raises BadInput if it cannot be drawn."""
+    folder = cache / picture_key(root, spec, picture)
+    file = folder / f"{spec.name}-{picture.kind}.jpg"
+    facts = file.with_suffix(".json")
+    if not facts.is_file() or not file.is_file():
+        folder.mkdir(parents=True, exist_ok=True)
+        image = render_pixels(root, spec, _program(root, picture))
+        write_bytes(file, _jpeg(image))
+        write_text(facts, json.dumps(_facts(image)))
+    known = json.loads(facts.read_text(encoding="utf-8"))
+    return Drawn(file, known["pixels"], known["means"], known["width"], known["height"])
+
+
+def _program(root: Path, picture: Picture) -> Path:
+    if picture.mistake:
+        assignment, _, name = picture.mistake.partition("/")
+        mistake_file(root, picture.mistake)
+        of = next(a for a in load_course(root).assignments if a.folder.name == assignment)
+        slug = name.removesuffix(".patch")
+        exhibit = next(e for e in exhibits_of(root, of, strict=False) if e.slug == slug)
+        return variant_program(root, exhibit.files)
+    if unknown := picture.stubs - load_tree(root).todos.keys():
+        raise BadInput(f"stub {', '.join(sorted(unknown))}: no such exercise")
+    return reference_program(root, picture.stubs)
+
+
+def render_pixels(root: Path, spec: FigureSpec, program: Path) -> Image.Image:
+    with tempfile.TemporaryDirectory(prefix="raybook-") as folder:
+        out = Path(folder, "figure.png")
+        command = [str(program), spec.scene, *spec.options, "-o", str(out), "--quiet"]
+        done = subprocess.run(
+            command, cwd=root, capture_output=True, text=True, timeout=_LONGEST, check=False
+        )
+        if done.returncode != 0 or not out.is_file():
+            raise BadInput(f"{spec.command}: {done.stderr.strip()[-600:]}")
+        with Image.open(out) as image:
+            return image.convert("RGB")
+
+
+def _jpeg(image: Image.Image) -> bytes:
+    stream = io.BytesIO()
+    image.save(stream, "JPEG", quality=_QUALITY, subsampling=0, optimize=True)
+    return stream.getvalue()
+
+
+def _facts(image: Image.Image) -> dict[str, str | int]:
+    means = image.resize(_CELLS, Image.Resampling.BOX)
+    return {
+        "pixels": hashlib.sha256(image.tobytes()).hexdigest()[:32],
+        "means": np.asarray(means, dtype=np.uint8).tobytes().hex(),
+        "width": image.width,
+        "height": image.height,
+    }
