@@ -26,10 +26,11 @@ class CodeBox:
         piece, woven = self._piece, self._woven
         first, last = woven.reader.span(piece)
         title = f"<code>{piece.file}</code>" if piece.is_root else _angles(escape(self._title()))
+        root = " data-root" if piece.is_root else ""
         place = f"{first}–{last}" if piece.is_root else f"{piece.file}:{first}–{last}"
         return (
             f'<figure class="rb-code" id="{self._key}" data-file="{piece.file}"'
-            f' data-indent="{self._indent}"{" data-root" if piece.is_root else ""}>'
+            f' data-indent="{self._indent}"{root}>'
             f'<figcaption><span class="rb-title">{title}</span>{self._siblings()}'
             f'<span class="rb-place">{place}</span>'
             f'<a class="headerlink" href="#{self._key}" title="Link to this code"'
@@ -83,7 +84,7 @@ class CodeBox:
         link = self._anchor(key, self._woven.title(piece), "rb-ref")
         return (
             f'<span class="rb-line rb-nested" data-n="{first}" data-nested="{key}"'
-            f'{" data-comment" if comment else ""}>{text}{_angles(link)}'
+            f"{' data-comment' if comment else ''}>{text}{_angles(link)}"
             f'<span class="rb-lines" data-text="{first}–{last}"></span>\n</span>'
         )
 
@@ -109,7 +110,9 @@ class CodeBox:
         return f'<div class="rb-foot">{"".join(rows)}</div>' if rows else ""
 
     def _definitions(self) -> list[Definition]:
-        return self._woven.identifiers.defined_in(self._key)
+        """Those that other files may use, too; what uses a helper of this file is near."""
+        defined = self._woven.identifiers.defined_in(self._key)
+        return [definition for definition in defined if not definition.of_file_only]
 
     def _used_in(self) -> str:
         """The piece around it; a file has none."""

@@ -24,12 +24,13 @@ def missing_files(woven: Woven, places: Places) -> list[str]:
 def _piece_faults(woven: Woven, places: Places) -> Iterator[str]:
     for key, piece in woven.reader.pieces.items():
         shown = places.pieces.get(key, [])
-        if len(shown) == 1 or not (lines := own_lines(woven, piece)):
+        if len(shown) == 1:
             continue
-        where = ", ".join(f"{piece.file}:{span}" for span in spans(lines))
+        lines = own_lines(woven, piece)
+        where = ", ".join(f"{piece.file}:{span}" for span in spans(lines)) or piece.file
         if not shown:
-            how = f":::{{source}} {piece.file}" if piece.is_root else f":::{{fragment}} {piece.slug}"
-            yield f"{where}: shown nowhere; '{how}' would show it"
+            how = f"{{source}} {piece.file}" if piece.is_root else f"{{fragment}} {piece.slug}"
+            yield f"{where}: shown nowhere; ':::{how}' would show it"
         else:
             yield f"{where}: shown {len(shown)} times: {_listed(shown)}"
 
@@ -50,7 +51,9 @@ def own_lines(woven: Woven, piece: Piece) -> list[int]:
 
 
 def spans(lines: Sequence[int]) -> Iterator[str]:
-    """"3-5" and "9" for lines 3, 4, 5 and 9."""
+    """ "3-5" and "9" for lines 3, 4, 5 and 9."""
+    if not lines:
+        return
     first = last = lines[0]
     for line in [*lines[1:], 0]:
         if line == last + 1:

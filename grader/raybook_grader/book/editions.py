@@ -7,7 +7,7 @@ have the files of the checkout: the book shows them the solutions, and the stubs
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
@@ -122,12 +122,12 @@ class Reader:
     # What is behind these.
 
     @property
-    def _revealed(self) -> Iterable[str] | frozenset[str]:
+    def _revealed(self) -> frozenset[str]:
         everything = self.edition is Edition.INSTRUCTOR
         return frozenset(self.tree.todos) if everything else frozenset()
 
     def _passes(self, piece: Piece) -> bool:
-        return is_visible(piece, frozenset(self._revealed))
+        return is_visible(piece, self._revealed)
 
     def _line(self, file: str, line: Line) -> BookLine | None:
         if self.edition is Edition.INSTRUCTOR:

@@ -16,7 +16,7 @@ from sphinx.environment import BuildEnvironment
 from sphinx.writers.html5 import HTML5Translator
 
 
-class render_figure(nodes.General, nodes.Element):
+class render_figure(nodes.figure):
     """A numbered figure: `pictures`, a caption, a legend."""
 
 
@@ -68,19 +68,17 @@ def depart_picture(writer: HTML5Translator, node: labelled_picture) -> None:
     writer.body.append(f"{label}</div>")
 
 
-def caption_of(node: nodes.Node) -> str | None:
+def caption_of(node: nodes.Node) -> str:
     """What a list of figures, or a reference by number, calls it."""
     assert isinstance(node, nodes.Element)
     for child in node.children:
         if isinstance(child, nodes.caption):
             return child.astext()
-    return None
+    return ""
 
 
 def setup(app: Sphinx) -> None:
     """Register the nodes."""
-    app.add_enumerable_node(
-        render_figure, "figure", caption_of, html=(visit_figure, depart_figure)
-    )
+    app.add_enumerable_node(render_figure, "figure", caption_of, html=(visit_figure, depart_figure))
     app.add_node(picture_row, html=(visit_row, depart_row))
     app.add_node(labelled_picture, html=(visit_picture, depart_picture))

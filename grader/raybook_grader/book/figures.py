@@ -100,7 +100,7 @@ class RenderDirective(BookDirective):
 def _entries(environment: BuildEnvironment) -> dict[str, Entry]:
     if not hasattr(environment, "raybook_figures"):
         environment.raybook_figures = {}  # type: ignore[attr-defined]
-    entries: dict[str, Entry] = environment.raybook_figures
+    entries: dict[str, Entry] = environment.raybook_figures  # type: ignore[attr-defined]
     return entries
 
 

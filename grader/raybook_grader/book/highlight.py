@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from html import escape
 
-from pygments.lexers.c_cpp import CLexer
 from pygments.token import STANDARD_TYPES, _TokenType
 
-from .identifiers import is_name
+from .identifiers import c_tokens, is_name
 
 LinkName = Callable[[str], str | None]
 """The address of a name's definition, if it has one."""
@@ -18,8 +17,7 @@ def highlight(lines: Sequence[str], link: LinkName) -> list[str]:
     """The lines as HTML. What belongs together over lines, a comment, is coloured as one."""
     marked = [""] * len(lines)
     number = 0
-    lexer = CLexer(stripnl=False, ensurenl=False)
-    for token, value in lexer.get_tokens("\n".join(lines)):
+    for token, value in c_tokens("\n".join(lines)):
         for part in _parts(value):
             if part == "\n":
                 number += 1

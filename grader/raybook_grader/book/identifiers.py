@@ -13,7 +13,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from pygments.lexers.c_cpp import CLexer
+from pygments.lexer import Lexer
+from pygments.lexers import get_lexer_by_name
 from pygments.token import Token, _TokenType
 
 from .editions import BookLine, Reader
@@ -82,13 +83,19 @@ class Identifiers:
         return uses
 
 
+def c_tokens(text: str) -> Iterator[tuple[_TokenType, str]]:
+    """The tokens of C code; together they are the text to the letter."""
+    lexer: Lexer = get_lexer_by_name("c", stripnl=False, ensurenl=False)
+    yield from lexer.get_tokens(text)
+
+
 def is_name(token: _TokenType) -> bool:
     """Whether the lexer takes a token for a name that may have a definition."""
-    return token in Token.Name or token in Token.Keyword.Type
+    return any(kind in (Token.Name, Token.Keyword.Type) for kind in token.split())
 
 
 def _names(text: str) -> Iterator[str]:
-    for token, value in CLexer(stripnl=False, ensurenl=False).get_tokens(text):
+    for token, value in c_tokens(text):
         if is_name(token):
             yield value
 

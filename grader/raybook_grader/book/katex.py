@@ -78,8 +78,8 @@ def display_math(writer: HTML5Translator, node: nodes.math_block) -> None:
     if node["number"]:
         number = f'<span class="eqno">({get_node_equation_number(writer, node)})</span>'
     tex = _html(writer, node, _aligned(node.astext()), True)
-    writer.body.append(writer.starttag(node, "div", CLASS="math"))
-    writer.body.append(f'<div class="math-body">{tex}</div>{number}</div>')
+    # The equation's id stands on a target before it.
+    writer.body.append(f'<div class="math"><div class="math-body">{tex}</div>{number}</div>')
     raise nodes.SkipNode
 
 
@@ -92,11 +92,17 @@ def _aligned(tex: str) -> str:
 
 def _html(writer: HTML5Translator, node: nodes.Element, tex: str, display: bool) -> str:
     try:
-        html: str = writer.builder.app.katex.set(tex, display)
+        html: str = katex_of(writer.builder.app).set(tex, display)
     except ValueError as fault:
         _log.warning("TeX: %s in %r", fault, tex, location=node, type="katex")
         return ""
     return html
+
+
+def katex_of(app: Sphinx) -> Katex:
+    """The process that the application sets its formulas with."""
+    katex: Katex = app.raybook_katex  # type: ignore[attr-defined]
+    return katex
 
 
 def setup(app: Sphinx) -> None:

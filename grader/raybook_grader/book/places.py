@@ -36,5 +36,5 @@ def places_of(environment: BuildEnvironment) -> Places:
     """The book's places; every build reads every page, so none is stale."""
     if not hasattr(environment, "raybook_places"):
         environment.raybook_places = Places()  # type: ignore[attr-defined]
-    places: Places = environment.raybook_places
+    places: Places = environment.raybook_places  # type: ignore[attr-defined]
     return places

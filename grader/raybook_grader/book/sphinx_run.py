@@ -52,7 +52,7 @@ def run_sphinx(settings: Settings, edition: Edition, builder: str, out: Path) ->
                "book_accept": int(settings.accept), "book_root": settings.root,
                "html_title": f"Raybook, {edition} edition"}  # fmt: skip
     command = [sys.executable, "-m", "sphinx", "-q", "-E", "-n", "--keep-going", "-b", builder,
-               "-d", doctrees, settings.docs, out]  # fmt: skip
+               "-d", str(doctrees), str(settings.docs), str(out)]  # fmt: skip
     for name, value in options.items():
         command += ["-D", f"{name}={value}"]
     if edition is Edition.STUDENT:
@@ -61,6 +61,7 @@ def run_sphinx(settings: Settings, edition: Edition, builder: str, out: Path) ->
         command, cwd=settings.root, env=_environment(), capture_output=True, text=True, check=False
     )
     (out / ".buildinfo").unlink(missing_ok=True)
+    shutil.rmtree(out / "_sources", ignore_errors=True)
     said = _plain(done.stderr, settings.root)
     return Outcome(out, tuple(said), done.returncode != 0)
 

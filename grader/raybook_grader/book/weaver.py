@@ -46,7 +46,7 @@ def load(app: Sphinx) -> None:
     app.raybook_woven = Woven(  # type: ignore[attr-defined]
         reader, Identifiers(reader), tuple(assignments)
     )
-    app.katex = katex.Katex(Path(app.config.book_node))  # type: ignore[attr-defined]
+    app.raybook_katex = katex.Katex(Path(app.config.book_node))  # type: ignore[attr-defined]
 
 
 def check(app: Sphinx, environment: BuildEnvironment) -> None:

@@ -70,6 +70,9 @@ The zanzibar of it is that the radius is squared.
 :::{fragment} disc.hit.point
 :::
 
+:::{fragment} disc.hit.stub
+:::
+
 :::{fragment} disc.area
 :::
 """
@@ -77,7 +80,7 @@ The zanzibar of it is that the radius is squared.
 MEAN = """\
 # Means
 
-:::{source} src/mean.c
+:::{source} src/shapes/mean.c
 :::
 
 :::{fragment} mean.pair
