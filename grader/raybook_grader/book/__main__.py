@@ -6,6 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from ..errors import BadInput
 from .build import build_book
 from .editions import Edition
 from .sphinx_run import Settings
@@ -20,7 +21,12 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("--accept", action="store_true", help="the figures are as they should be")
     asked = parser.parse_args(words)
     editions = [asked.edition] if asked.edition else list(Edition)
-    return build_book(Settings(asked.root.resolve(), asked.draft, asked.accept), editions)
+    settings = Settings(asked.root.resolve(), asked.draft, asked.accept)
+    try:
+        return build_book(settings, editions)
+    except BadInput as fault:
+        print(f"book: {fault}", file=sys.stderr)
+        return 1
 
 
 if __name__ == "__main__":

@@ -2,41 +2,103 @@
 
 from __future__ import annotations
 
+import hashlib
 import shutil
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 
-from .editions import Edition
-from .sphinx_run import Outcome, Settings, run_sphinx
+from ..literate.leaks import scan
+from ..literate.secrets import checkout_secrets
+from ..literate.tree import load_tree
+from .editions import Edition, Reader
+from .links import link_faults
+from .paper import print_pdf
+from .round_trip import render_faults, text_faults
+from .sphinx_run import Settings, run_sphinx
 
 
 def build_book(settings: Settings, editions: Sequence[Edition]) -> int:
     """Make the editions; returns the exit code."""
-    faults = 0
+    count = 0
     for edition in editions:
-        faults += _make(settings, edition)
-    if faults and settings.draft:
-        print(f"book: {faults} faults; a draft may have them", file=sys.stderr)
-    return 1 if faults and not settings.draft else 0
+        began = time.monotonic()
+        faults = _make_pages(settings, edition)
+        if not settings.draft and not faults:
+            faults = _make_pdf(settings, edition)
+        if not settings.draft and not faults:
+            faults = _check_all(settings, edition)
+        for fault in faults:
+            print(f"{edition}: {fault}", file=sys.stderr)
+        count += len(faults)
+        index = settings.pages(edition).relative_to(settings.root) / "index.html"
+        print(f"book: {index}, {len(faults)} faults, {time.monotonic() - began:.0f} s", flush=True)
+    if count and settings.draft:
+        print(f"book: {count} faults; only a draft may have them", file=sys.stderr)
+    return 1 if count and not settings.draft else 0
 
 
-def _make(settings: Settings, edition: Edition) -> int:
-    """The number of faults of one edition."""
-    began = time.monotonic()
-    outcome = run_sphinx(settings, edition, "html", settings.out / ".work" / f"html-{edition}")
-    faults = _tell(edition, outcome)
+def _make_pages(settings: Settings, edition: Edition) -> list[str]:
+    """The pages; they take the place of the old ones even if something is wrong with them."""
+    outcome = run_sphinx(settings, edition, "html", _aside(settings, f"html-{edition}"))
     if outcome.crashed:
-        return max(faults, 1)
+        return list(outcome.warnings) or ["sphinx failed"]
     pages = settings.pages(edition)
     shutil.rmtree(pages, ignore_errors=True)
     outcome.folder.rename(pages)
-    took = time.monotonic() - began
-    print(f"book: {pages.relative_to(settings.root)}/index.html, {took:.0f} s")
-    return faults
+    faults = [*outcome.warnings, *link_faults(pages)]
+    if settings.draft:
+        return faults  # half a book gives no whole file
+    return [*faults, *text_faults(pages, Reader(load_tree(settings.root), edition))]
 
 
-def _tell(edition: Edition, outcome: Outcome) -> int:
-    for line in outcome.warnings:
-        print(f"{edition}: {line}", file=sys.stderr)
-    return len(outcome.warnings)
+def _make_pdf(settings: Settings, edition: Edition) -> list[str]:
+    """The book as one page, on paper."""
+    single = _aside(settings, f"single-{edition}")
+    outcome = run_sphinx(settings, edition, "singlehtml", single)
+    if outcome.warnings or outcome.crashed:
+        return list(outcome.warnings) or ["sphinx failed"]
+    print_pdf(single / "index.html", settings.pdf(edition))
+    return []
+
+
+def _check_all(settings: Settings, edition: Edition) -> list[str]:
+    """The checks that take longer, on pages and PDF."""
+    pages = settings.pages(edition)
+    reader = Reader(load_tree(settings.root), edition)
+    faults = render_faults(settings.root, pages, reader)
+    if edition is Edition.STUDENT:
+        faults += _leaks(settings.root, pages)
+    return faults + list(_changes(settings, edition))
+
+
+def _leaks(root: Path, artefact: Path) -> Iterator[str]:
+    report = scan(artefact, checkout_secrets(root))
+    yield from map(str, report.leaks)
+    yield from report.unread
+
+
+def _changes(settings: Settings, edition: Edition) -> Iterator[str]:
+    """What is not the same when it is made again: pages and PDF."""
+    again = run_sphinx(settings, edition, "html", _aside(settings, f"again-{edition}")).folder
+    single = run_sphinx(settings, edition, "singlehtml", _aside(settings, f"single-{edition}"))
+    pdf = settings.pdf(edition)
+    print_pdf(single.folder / "index.html", again / pdf.name)
+    first, second = digests(settings.pages(edition)), digests(again)
+    for name in sorted(first.keys() | second.keys()):
+        if first.get(name) != second.get(name):
+            yield f"{name}: made twice, it is not the same"
+
+
+def digests(folder: Path) -> dict[str, str]:
+    """The hash of every file in a folder, by its name there."""
+    return {
+        file.relative_to(folder).as_posix(): hashlib.sha256(file.read_bytes()).hexdigest()
+        for file in sorted(folder.rglob("*"))
+        if file.is_file()
+    }
+
+
+def _aside(settings: Settings, name: str) -> Path:
+    return settings.out / ".work" / name

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from html import escape
 from itertools import groupby
 
 from .book_nodes import Linker, Woven
 from .identifiers import Definition
+
+_MOST_USERS = 6  # what everything uses is no news
 
 
 def fragment_list(woven: Woven, link: Linker) -> str:
@@ -23,18 +25,23 @@ def fragment_list(woven: Woven, link: Linker) -> str:
 
 def identifier_list(woven: Woven, link: Linker) -> str:
     """Every identifier, under its first letter."""
-    parts = []
-    for letter, own in groupby(woven.identifiers.all(), key=lambda d: d.name[0].upper()):
-        rows = "".join(_identifier(woven, link, definition) for definition in own)
-        parts.append(f'<p class="rubric">{letter}</p><ul class="rb-index">{rows}</ul>')
-    return "".join(parts)
+    rows = []
+    shown = [d for d in woven.identifiers.all() if not d.name.startswith("_")]
+    for letter, own in groupby(shown, key=lambda d: d.name[0].upper()):
+        rows.append(f'<li class="rb-letter">{letter}</li>')
+        rows += [_identifier(woven, link, definition) for definition in own]
+    return f'<ul class="rb-index">{"".join(rows)}</ul>'
 
 
 def _identifier(woven: Woven, link: Linker, definition: Definition) -> str:
     name = _link(link.to(definition.key, definition.anchor), f"<code>{definition.name}</code>")
     where = f'<span class="rb-place">{definition.kind}, {definition.file}</span>'
-    users = woven.identifiers.used_in.get(definition, [])
-    uses = ", ".join(_unique(_user(woven, link, key) for key in users))
+    users = _unique(
+        _user(woven, link, key) for key in woven.identifiers.used_in.get(definition, [])
+    )
+    uses = ", ".join(users[:_MOST_USERS])
+    if len(users) > _MOST_USERS:
+        uses += f" and {len(users) - _MOST_USERS} more"
     return f"<li>{name} {where}{f'<br>used in {uses}' if uses else ''}</li>"
 
 
@@ -44,8 +51,8 @@ def _user(woven: Woven, link: Linker, key: str) -> str:
     return _link(link.to(key), title if piece.is_root else f"⟨{title}⟩")
 
 
-def _unique(texts: Iterable[str]) -> Iterator[str]:
-    return iter(dict.fromkeys(texts))
+def _unique(texts: Iterable[str]) -> list[str]:
+    return list(dict.fromkeys(texts))
 
 
 def _link(address: str | None, html: str) -> str:

@@ -1,17 +1,21 @@
-"""The book as one PDF, by Chromium."""
+"""The book as one PDF, by Chromium, with a table of contents that has page numbers."""
 
 from __future__ import annotations
 
 import re
 import shutil
+import subprocess
+import tempfile
+from importlib.resources import files
 from pathlib import Path
 
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import Page, sync_playwright
 
 from ..errors import BadInput
 from ..files import write_bytes
 
 _DATE = re.compile(rb"/(CreationDate|ModDate) \(D:[^)]*\)")
+_DESTINATION = re.compile(r'\s*(\d+) \[.*\] "(print-\d+)"')
 _FOOT = (
     '<div style="width: 100%; font: 8px sans-serif; color: #666; text-align: center">'
     '<span class="pageNumber"></span></div>'
@@ -19,7 +23,7 @@ _FOOT = (
 
 
 def print_pdf(page: Path, out: Path) -> None:
-    """Print a page, folded parts open, in light colours; the bytes depend on the page alone."""
+    """Print a page in light colours; the bytes depend on the page alone."""
     program = shutil.which("chromium")
     if not program:
         raise BadInput("chromium is not there: run `make setup`")
@@ -27,14 +31,34 @@ def print_pdf(page: Path, out: Path) -> None:
         browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
         sheet = browser.new_page(color_scheme="light")
         sheet.goto(page.resolve().as_uri())
-        sheet.evaluate("() => document.querySelectorAll('details').forEach(d => { d.open = true })")
         sheet.evaluate("() => document.fonts.ready.then(() => true)")
-        data = sheet.pdf(
-            prefer_css_page_size=True, print_background=True, outline=True, tagged=True,
-            display_header_footer=True, header_template="<span></span>", footer_template=_FOOT,
-        )  # fmt: skip
+        pages = _destinations(_printed(sheet, {}))
+        data = _printed(sheet, pages)
         browser.close()
     write_bytes(out, _without_dates(data))
+
+
+def _printed(sheet: Page, pages: dict[str, str]) -> bytes:
+    script = files(__package__ or "").joinpath("static", "print.js")
+    sheet.evaluate(script.read_text(encoding="utf-8"), pages)
+    return sheet.pdf(
+        prefer_css_page_size=True, print_background=True, outline=True, tagged=True,
+        display_header_footer=True, header_template="<span></span>", footer_template=_FOOT,
+    )  # fmt: skip
+
+
+def _destinations(data: bytes) -> dict[str, str]:
+    """The page of each heading, by poppler's pdfinfo."""
+    with tempfile.NamedTemporaryFile(suffix=".pdf") as file:
+        file.write(data)
+        file.flush()
+        command = ["pdfinfo", "-dests", file.name]
+        try:
+            run = subprocess.run(command, capture_output=True, text=True, check=True)
+        except FileNotFoundError:
+            raise BadInput("pdfinfo (poppler-utils) is not there: run `make setup`") from None
+    found = map(_DESTINATION.match, run.stdout.splitlines())
+    return {match[2]: match[1] for match in found if match}
 
 
 def _without_dates(data: bytes) -> bytes:

@@ -33,6 +33,10 @@ class Settings:
         """Where the pages of an edition end up."""
         return self.out / edition
 
+    def pdf(self, edition: Edition) -> Path:
+        """The whole edition on paper."""
+        return self.pages(edition) / f"raybook-{edition}.pdf"
+
 
 @dataclass(frozen=True)
 class Outcome:
