@@ -44,6 +44,7 @@ def read_manifest(file: Path) -> dict[str, Entry]:
 
 def write_manifest(file: Path, entries: Entries) -> None:
     table = {n: {"pixels": e.pixels, "means": e.means} for n, e in sorted(entries.items())}
+    file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(json.dumps(table, indent=1) + "\n", encoding="utf-8")
 
 

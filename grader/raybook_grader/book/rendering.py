@@ -34,22 +34,30 @@ class Drawn:
     file: Path
     pixels: str
     means: str
-    width: int
-    height: int
 
 
 def draw(root: Path, cache: Path, spec: FigureSpec, picture: Picture) -> Drawn:
     """The picture, up to date; raises BadInput if it cannot be drawn."""
-    folder = cache / picture_key(root, spec, picture)
-    file = folder / f"{spec.name}-{picture.kind}.jpg"
-    facts = file.with_suffix(".json")
-    if not facts.is_file() or not file.is_file():
-        folder.mkdir(parents=True, exist_ok=True)
+    file = _file(cache, root, spec, picture)
+    if not file.is_file() or not file.with_suffix(".json").is_file():
         image = render_pixels(root, spec, _program(root, picture))
-        write_bytes(file, _jpeg(image))
-        write_text(facts, json.dumps(_facts(image)))
-    known = json.loads(facts.read_text(encoding="utf-8"))
-    return Drawn(file, known["pixels"], known["means"], known["width"], known["height"])
+        return keep(cache, root, spec, picture, image)
+    facts = json.loads(file.with_suffix(".json").read_text(encoding="utf-8"))
+    return Drawn(file, facts["pixels"], facts["means"])
+
+
+def keep(cache: Path, root: Path, spec: FigureSpec, picture: Picture, image: Image.Image) -> Drawn:
+    """Put a picture into the cache."""
+    file = _file(cache, root, spec, picture)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    facts = _facts(image)
+    write_bytes(file, _jpeg(image))
+    write_text(file.with_suffix(".json"), json.dumps(facts))
+    return Drawn(file, facts["pixels"], facts["means"])
+
+
+def _file(cache: Path, root: Path, spec: FigureSpec, picture: Picture) -> Path:
+    return cache / picture_key(root, spec, picture) / f"{spec.name}-{picture.kind}.jpg"
 
 
 def _program(root: Path, picture: Picture) -> Path:
@@ -84,11 +92,9 @@ def _jpeg(image: Image.Image) -> bytes:
     return stream.getvalue()
 
 
-def _facts(image: Image.Image) -> dict[str, str | int]:
+def _facts(image: Image.Image) -> dict[str, str]:
     means = image.resize(_CELLS, Image.Resampling.BOX)
     return {
         "pixels": hashlib.sha256(image.tobytes()).hexdigest()[:32],
         "means": np.asarray(means, dtype=np.uint8).tobytes().hex(),
-        "width": image.width,
-        "height": image.height,
     }

@@ -114,15 +114,17 @@ def make_book(root: Path) -> Path:
     }.items():
         (docs / name).parent.mkdir(parents=True, exist_ok=True)
         (docs / name).write_text(text, encoding="utf-8")
-    (root / "build").mkdir(exist_ok=True)
+    (root / "src" / "build.mk").write_text("CC := gcc\n")
     (root / "build" / "node").symlink_to(CHECKOUT / "build" / "node")
     return root
 
 
-def weave(root: Path, edition: Edition, builder: str = "html", out: str = "") -> Outcome:
+def weave(
+    root: Path, edition: Edition, builder: str = "html", out: str = "", accept: bool = False
+) -> Outcome:
     """Build an edition of the small book."""
     folder = root / "build" / "made" / (out or f"{builder}-{edition}")
-    return run_sphinx(Settings(root), edition, builder, folder)
+    return run_sphinx(Settings(root, accept=accept), edition, builder, folder)
 
 
 def edit(root: Path, name: str, old: str, new: str) -> None:

@@ -17,9 +17,11 @@
     const target = `print-${number += 1}`;
     let place = heading.querySelector(":scope > .rb-print-target");
     if (!place) {
+      // An empty element, or the heading itself, may count to the page before.
       place = document.createElement("span");
       place.className = "rb-print-target";
-      heading.append(place); // before its words it could lie on the page before
+      place.append(...heading.childNodes);
+      heading.append(place);
     }
     place.id = target;
     const row = document.createElement("a");
