@@ -41,6 +41,7 @@ render: ## [SCENE=file.json] [ARGS="--spp 16"] draws the demo scenes and a conta
 
 test: ## every test: format, C (Unity, also with sanitizers), Python, end to end
 	@.setup/setup.sh
+	@.setup/setup.sh book
 	@$(MAKE) check-format check-python
 	@$(MAKE) unit-tests
 	@$(MAKE) unit-tests OPT=asan
@@ -78,8 +79,8 @@ debug: ## A=03 or SCENE=file.json, PIXEL=x,y: that pixel's paths, and where VARI
 	    --scene "$(if $(filter command line,$(origin SCENE)),$(SCENE))"
 
 book: ## [EDITION=student|instructor] [DRAFT=1] [ACCEPT=1] weaves the book into build/book/
-	@.setup/setup.sh all book
-	@$(MAKE) -s $(program) build/meshes/done
+	@.setup/setup.sh
+	@.setup/setup.sh book
 	@$(python) -m raybook_grader.book $(if $(EDITION),--edition $(EDITION)) \
 	    $(if $(DRAFT),--draft) $(if $(ACCEPT),--accept)
 

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # Installs what Raybook needs and is not there yet. Silent and quick when nothing is missing.
 #
-#   setup.sh [all | packages | python | unity | book ...]   these parts only; all by default, which
-#                                    is all but the book's
+#   setup.sh [packages | python | unity | book ...]   these parts only; by default all but the book
 #   setup.sh --print-command                         the apt-get command for every package
 #
 # Each part is a file beside this one with NAME_ready (is there nothing to do?) and setup_NAME.

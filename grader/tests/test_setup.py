@@ -4,6 +4,7 @@ Most tests run a copy of `.setup/` with made-up system tools first in PATH, so t
 need root nor change this machine, and the same happens on any system.
 """
 
+import json
 import os
 import re
 import shutil
@@ -114,7 +115,7 @@ def test_second_run_says_nothing_and_changes_nothing() -> None:
 
 
 @pytest.mark.skipif(not shutil.which("dpkg-query"), reason="not a Debian system")
-@pytest.mark.parametrize("name", listed("optional"))
+@pytest.mark.parametrize("name", listed("optional", "book"))
 def test_every_listed_package_exists_and_is_installed(name: str) -> None:
     query = ["dpkg-query", "-W", "-f", "${db:Status-Status}", name]
     assert subprocess.run(query, capture_output=True, text=True, check=True).stdout == "installed"
@@ -127,7 +128,7 @@ def test_print_command_names_what_this_checkout_needs(machine: Machine) -> None:
     student = machine.setup("--print-command")
     with_grader(machine)
     instructor = machine.setup("--print-command")
-    for result, names in ((student, listed("grader")), (instructor, listed())):
+    for result, names in ((student, listed("grader", "book")), (instructor, listed("book"))):
         assert result.returncode == 0
         assert result.stdout.startswith("sudo apt-get install -y ")
         assert [word for word in result.stdout.split()[4:] if word[0] != "-"] == names
@@ -247,6 +248,37 @@ def test_python_too_old_is_named(machine: Machine) -> None:
     assert result.returncode == 1
     assert "Python 3.0.1" in result.stderr
     assert not venv.exists()
+
+
+# ---- book ----
+
+
+def with_npm(machine: Machine, tmp_path: Path) -> None:
+    """A node, and an npm that fails as long as `npm-fails` exists."""
+    npm = '[ ! -e "$STATE/npm-fails" ] && mkdir "$2/node_modules" || { echo wrong hash; exit 1; }'
+    for name, body in (("node", "exit 1"), ("npm", npm)):
+        (tmp_path / "tools" / name).write_text(f"#!/usr/bin/env bash\n{body}\n")
+        (tmp_path / "tools" / name).chmod(0o755)
+
+
+def test_the_book_is_set_up_when_it_is_asked_for(machine: Machine, tmp_path: Path) -> None:
+    with_npm(machine, tmp_path)
+    machine.write("npm-fails")
+    failed = machine.setup("book")
+    assert failed.returncode == 1 and "wrong hash" in failed.stderr
+    (machine.state / "npm-fails").unlink()
+    assert "KaTeX" in machine.setup("book").stdout
+    assert said(machine.setup("book")) == ""
+    with (machine.checkout / ".setup/book/package-lock.json").open("a") as changed:
+        changed.write("\n")
+    assert "KaTeX" in machine.setup("book").stdout, "another lock, other packages"
+
+
+def test_what_the_book_needs_is_pinned_and_names_no_host() -> None:
+    text = (SETUP / "book/package-lock.json").read_text()
+    packages = json.loads(text)["packages"]
+    assert all("integrity" in entry for name, entry in packages.items() if name)
+    assert "://" not in text
 
 
 # ---- unity ----
