@@ -5,8 +5,8 @@ from __future__ import annotations
 import hashlib
 import shutil
 import sys
-import time
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from ..literate.leaks import scan
@@ -14,29 +14,34 @@ from ..literate.secrets import checkout_secrets
 from ..literate.tree import load_tree
 from .editions import Edition, Reader
 from .links import link_faults
-from .paper import print_pdf
+from .paper import PageNumbers, print_pdf
 from .round_trip import render_faults, text_faults
 from .sphinx_run import Settings, run_sphinx
 
 
 def build_book(settings: Settings, editions: Sequence[Edition]) -> int:
     """Make the editions; returns the exit code."""
-    count = 0
+    # The second edition finds the figures drawn; what comes then takes a core for each.
+    faults = {edition: _make_pages(settings, edition) for edition in editions}
+    if not settings.draft:
+        sound = [edition for edition in editions if not faults[edition]]
+        with ThreadPoolExecutor(len(editions)) as pool:
+            found = pool.map(lambda edition: _finish(settings, edition), sound)
+            faults |= dict(zip(sound, found, strict=True))
     for edition in editions:
-        began = time.monotonic()
-        faults = _make_pages(settings, edition)
-        if not settings.draft and not faults:
-            faults = _make_pdf(settings, edition)
-        if not settings.draft and not faults:
-            faults = _check_all(settings, edition)
-        for fault in faults:
-            print(f"{edition}: {fault}", file=sys.stderr)
-        count += len(faults)
-        index = settings.pages(edition).relative_to(settings.root) / "index.html"
-        print(f"book: {index}, {len(faults)} faults, {time.monotonic() - began:.0f} s", flush=True)
+        _tell(settings, edition, faults[edition])
+    count = sum(map(len, faults.values()))
     if count and settings.draft:
         print(f"book: {count} faults; only a draft may have them", file=sys.stderr)
     return 1 if count and not settings.draft else 0
+
+
+def _tell(settings: Settings, edition: Edition, faults: Sequence[str]) -> None:
+    for fault in faults:
+        print(f"{edition}: {fault}", file=sys.stderr)
+    made = [settings.pages(edition) / "index.html", settings.pdf(edition)]
+    names = [str(file.relative_to(settings.root)) for file in made if file.is_file()]
+    print(f"book: {' and '.join(names) or 'nothing'}, {len(faults)} faults", flush=True)
 
 
 def _make_pages(settings: Settings, edition: Edition) -> list[str]:
@@ -53,24 +58,18 @@ def _make_pages(settings: Settings, edition: Edition) -> list[str]:
     return [*faults, *text_faults(pages, Reader(load_tree(settings.root), edition))]
 
 
-def _make_pdf(settings: Settings, edition: Edition) -> list[str]:
-    """The book as one page, on paper."""
-    single = _aside(settings, f"single-{edition}")
-    outcome = run_sphinx(settings, edition, "singlehtml", single)
-    if outcome.warnings or outcome.crashed:
-        return list(outcome.warnings) or ["sphinx failed"]
-    print_pdf(single / "index.html", settings.pdf(edition))
-    return []
-
-
-def _check_all(settings: Settings, edition: Edition) -> list[str]:
-    """The checks that take longer, on pages and PDF."""
+def _finish(settings: Settings, edition: Edition) -> list[str]:
+    """The book as one page, on paper, and the checks that take longer."""
+    single = run_sphinx(settings, edition, "singlehtml", _aside(settings, f"single-{edition}"))
+    if single.warnings or single.crashed:
+        return list(single.warnings) or ["sphinx failed"]
+    numbers = print_pdf(single.folder / "index.html", settings.pdf(edition))
     pages = settings.pages(edition)
     reader = Reader(load_tree(settings.root), edition)
     faults = render_faults(settings.root, pages, reader)
     if edition is Edition.STUDENT:
         faults += _leaks(settings.root, pages)
-    return faults + list(_changes(settings, edition))
+    return faults + list(_changes(settings, edition, numbers))
 
 
 def _leaks(root: Path, artefact: Path) -> Iterator[str]:
@@ -79,12 +78,12 @@ def _leaks(root: Path, artefact: Path) -> Iterator[str]:
     yield from report.unread
 
 
-def _changes(settings: Settings, edition: Edition) -> Iterator[str]:
+def _changes(settings: Settings, edition: Edition, numbers: PageNumbers) -> Iterator[str]:
     """What is not the same when it is made again: pages and PDF."""
     again = run_sphinx(settings, edition, "html", _aside(settings, f"again-{edition}")).folder
     single = run_sphinx(settings, edition, "singlehtml", _aside(settings, f"single-{edition}"))
     pdf = settings.pdf(edition)
-    print_pdf(single.folder / "index.html", again / pdf.name)
+    print_pdf(single.folder / "index.html", again / pdf.name, numbers)
     first, second = digests(settings.pages(edition)), digests(again)
     for name in sorted(first.keys() | second.keys()):
         if first.get(name) != second.get(name):

@@ -73,7 +73,7 @@ class CodeBox:
             return self._nested(item)
         names = self._woven.identifiers.at.get((self._piece.file, item.origin), [])
         places = "".join(f'<span id="{d.anchor}"></span>' for d in names if d.key == self._key)
-        return f'<span class="rb-line" data-n="{item.number}">{places}{html}\n</span>'
+        return f'<span class="rb-line" data-n="{item.number:>5}">{places}{html}\n</span>'
 
     def _nested(self, piece: Piece) -> str:
         """A fragment in place of its lines; in the student's file its title is a comment."""
@@ -83,7 +83,7 @@ class CodeBox:
         first, last = self._woven.reader.span(piece)
         link = self._anchor(key, self._woven.title(piece), "rb-ref")
         return (
-            f'<span class="rb-line rb-nested" data-n="{first}" data-nested="{key}"'
+            f'<span class="rb-line rb-nested" data-n="{first:>5}" data-nested="{key}"'
             f"{' data-comment' if comment else ''}>{text}{_angles(link)}"
             f'<span class="rb-lines" data-text="{first}–{last}"></span>\n</span>'
         )
@@ -94,7 +94,7 @@ class CodeBox:
             return ""
         marked = highlight([line.text[self._indent :] for line in stub], self._address)
         rows = (
-            f'<span class="rb-line" data-n="{line.number}">{html}\n</span>'
+            f'<span class="rb-line" data-n="{line.number:>5}">{html}\n</span>'
             for line, html in zip(stub, marked, strict=True)
         )
         return (

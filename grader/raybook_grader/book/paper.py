@@ -22,8 +22,15 @@ _FOOT = (
 )
 
 
-def print_pdf(page: Path, out: Path) -> None:
-    """Print a page in light colours; the bytes depend on the page alone."""
+PageNumbers = dict[str, str]
+"""By the id of a heading in the table of contents."""
+
+
+def print_pdf(page: Path, out: Path, numbers: PageNumbers | None = None) -> PageNumbers:
+    """Print a page in light colours; the bytes depend on the page alone.
+
+    Returns the page numbers of the contents; who knows them saves one of two prints.
+    """
     program = shutil.which("chromium")
     if not program:
         raise BadInput("chromium is not there: run `make setup`")
@@ -32,22 +39,24 @@ def print_pdf(page: Path, out: Path) -> None:
         sheet = browser.new_page(color_scheme="light")
         sheet.goto(page.resolve().as_uri())
         sheet.evaluate("() => document.fonts.ready.then(() => true)")
-        pages = _destinations(_printed(sheet, {}))
-        data = _printed(sheet, pages)
+        if numbers is None:
+            numbers = _destinations(_printed(sheet, {}))
+        data = _printed(sheet, numbers)
         browser.close()
     write_bytes(out, _without_dates(data))
+    return numbers
 
 
-def _printed(sheet: Page, pages: dict[str, str]) -> bytes:
+def _printed(sheet: Page, numbers: PageNumbers) -> bytes:
     script = files(__package__ or "").joinpath("static", "print.js")
-    sheet.evaluate(script.read_text(encoding="utf-8"), pages)
+    sheet.evaluate(script.read_text(encoding="utf-8"), numbers)
     return sheet.pdf(
         prefer_css_page_size=True, print_background=True, outline=True, tagged=True,
         display_header_footer=True, header_template="<span></span>", footer_template=_FOOT,
     )  # fmt: skip
 
 
-def _destinations(data: bytes) -> dict[str, str]:
+def _destinations(data: bytes) -> PageNumbers:
     """The page of each heading, by poppler's pdfinfo."""
     with tempfile.NamedTemporaryFile(suffix=".pdf") as file:
         file.write(data)

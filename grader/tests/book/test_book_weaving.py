@@ -87,7 +87,7 @@ def test_lines_are_those_of_the_readers_file(book: Path, sites: dict[Edition, Pa
     theirs = Reader(load_tree(book), Edition.STUDENT).text("src/shapes/disc.c").splitlines()
     number = theirs.index("float disc_area(const struct disc *d)") + 1
     assert f"src/shapes/disc.c:{number}–{number + 3}" in student
-    assert f'data-n="{number}"' in student
+    assert f'data-n="{number:>5}"' in student
     ours = (book / "src/shapes/disc.c").read_text().splitlines()
     number = ours.index("float disc_area(const struct disc *d)") + 1
     instructor = box(chapter(sites[Edition.INSTRUCTOR]), "frag-disc-area")
