@@ -88,7 +88,8 @@ def render_pixels(root: Path, spec: FigureSpec, program: Path) -> Image.Image:
 
 def _jpeg(image: Image.Image) -> bytes:
     stream = io.BytesIO()
-    image.save(stream, "JPEG", quality=_QUALITY, subsampling=0, optimize=True)
+    # Not optimised: for that Pillow has a buffer of a byte a pixel, and noise needs more.
+    image.save(stream, "JPEG", quality=_QUALITY, subsampling=0)
     return stream.getvalue()
 
 
