@@ -54,6 +54,7 @@ def run_sphinx(settings: Settings, edition: Edition, builder: str, out: Path) ->
     shutil.rmtree(doctrees, ignore_errors=True)
     options = {"book_edition": edition.value, "book_draft": int(settings.draft),
                "book_accept": int(settings.accept), "book_root": settings.root,
+               "book_assets": settings.out / ".work" / f"assets-{edition}-{builder}",
                "html_title": f"Raybook, {edition} edition"}  # fmt: skip
     command = [sys.executable, "-m", "sphinx", "-q", "-E", "-n", "--keep-going", "-b", builder,
                "-d", str(doctrees), str(settings.docs), str(out)]  # fmt: skip
