@@ -8,6 +8,7 @@
 const char *const filter_names[] = {"box", "tent", "gaussian", "mitchell",
                                     NULL};
 
+//> filter.value: Evaluate the four filters
 static float gaussian(const struct filter *f, float x)
 {
     float edge = expf(-f->alpha * f->radius * f->radius);
@@ -44,7 +45,9 @@ float filter_value(const struct filter *f, float x)
     }
     return 1.0f;
 }
+//< filter.value
 
+//> filter.table: Tabulate a filter
 /* The middle of cell i. */
 static float cell_place(const struct filter *f, float i)
 {
@@ -70,7 +73,9 @@ struct filter filter_make(const struct film_settings *film)
     f.integral = (float)(signed_sum * 2.0 * (double)f.radius / FILTER_CELLS);
     return f;
 }
+//< filter.table
 
+//> filter.sample: Draw an offset from the table
 /* The cell with cdf[cell] <= random < cdf[cell + 1], by halving. */
 static int find_cell(const struct filter *f, float random)
 {
@@ -113,3 +118,4 @@ vec2 filter_sample(const struct filter *f, vec2 random, float *weight)
     float y = sample_axis(f, random.y, weight);
     return vec2_make(x, y);
 }
+//< filter.sample

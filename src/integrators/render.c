@@ -44,6 +44,7 @@ static struct ray_differential differential(const struct job *job, vec2 place)
     return job->has_images ? camera_differential(&job->camera, place) : none;
 }
 
+//> render.radiance: Let the integrator answer
 static rgb view(const struct tracer *t, const ray *r,
                 const struct ray_differential *d)
 {
@@ -65,6 +66,7 @@ static rgb radiance(const struct tracer *t, const ray *r,
         return view(t, r, d);
     }
 }
+//< render.radiance
 
 static void add_aovs(const struct tracer *t, const ray *r,
                      const struct ray_differential *d, double *sums)
@@ -77,6 +79,7 @@ static void add_aovs(const struct tracer *t, const ray *r,
         sums[i] += (double)values[i];
 }
 
+//> render.sample: Take one sample of one pixel
 static struct sampler start_sample(const struct job *job, size_t pixel,
                                    int sample)
 {
@@ -113,7 +116,9 @@ static void render_pixel(const struct job *job, int x, int y)
     for (int s = job->first_sample; s < job->last_sample; s++)
         render_sample(job, x, y, s);
 }
+//< render.sample
 
+//> render.tiles: Share the tiles among the threads
 static int smaller(int a, int b)
 {
     return a < b ? a : b;
@@ -176,7 +181,9 @@ static void render_pass(const struct job *job, struct progress *p,
         counters_flush(total);
     }
 }
+//< render.tiles
 
+//> render.passes: Go over the film again and again
 /* 1, 2, 4 ... and at most 64 samples a pass: soon a whole picture, and a stop
  * is never far away. Where a stop waits for the pass to end, a pass adds an
  * eighth, so that it comes at most that much late. */
@@ -213,3 +220,4 @@ bool render(const struct scene *scene, const struct render_options *options,
     }
     return !progress.stopped;
 }
+//< render.passes

@@ -8,6 +8,7 @@
 #include "lights/rect_light.h"
 #include "lights/sphere_light.h"
 
+//> light.shapes: Tie a light to its shape
 void light_set_rect(struct light *light, const struct rect *rect)
 {
     light->rect = rect;
@@ -29,7 +30,9 @@ void light_set_mesh(struct light *light, const struct mesh *mesh)
     light->triangles = mesh_light_table(mesh, &light->area);
     light->extent = mesh_light_longest_edge(mesh);
 }
+//< light.shapes
 
+//> light.look: Look at a place on a light
 static float taxicab(vec3 v)
 {
     return fabsf(v.x) + fabsf(v.y) + fabsf(v.z);
@@ -67,7 +70,9 @@ static bool see_place(const struct light *light, vec3 point, vec3 place,
     out->radiance = light_emitted(light, normal, vec3_negate(out->direction));
     return true;
 }
+//< light.look
 
+//> light.sample: Ask each kind of light for a direction
 static bool sample_rect(const struct light *light, vec3 point, vec2 random,
                         struct light_sample *out)
 {
@@ -138,7 +143,9 @@ bool light_sample(const struct light *light, vec3 point, vec2 random,
     return sample_any(light, point, random, out) && out->pdf > 0.0f &&
            isfinite(out->pdf) && !rgb_is_black(out->radiance);
 }
+//< light.sample
 
+//> light.pdf: Say how likely a direction was
 float light_pdf(const struct light *light, vec3 point, vec3 direction,
                 vec3 position, vec3 normal)
 {
@@ -157,6 +164,7 @@ float light_pdf(const struct light *light, vec3 point, vec3 direction,
     }
     return 0.0f;
 }
+//< light.pdf
 
 static bool is_area_light(const struct light *light)
 {
@@ -176,6 +184,7 @@ bool light_is_delta(const struct light *light)
     return !is_area_light(light) && light->kind != LIGHT_ENVIRONMENT;
 }
 
+//> light.power: Estimate the power of a light
 /* The integral of the falloff over the sphere: with beam b and cutoff c, 2 pi
  * (1 - (sin c - sin b) / (c - b)). */
 static float spot_solid_angle(const struct light *light)
@@ -206,6 +215,7 @@ float light_power(const struct light *light, float scene_radius)
     }
     return 0.0f;
 }
+//< light.power
 
 void light_free(struct light *light)
 {

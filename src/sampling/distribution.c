@@ -7,6 +7,7 @@
 #include "base/minmax.h"
 #include "sampling/warp.h"
 
+//> distribution.sums: Turn weights into running sums
 static struct distribution_1d start(uint32_t count)
 {
     struct distribution_1d d = {count, NULL, 0.0, 0, NULL};
@@ -54,7 +55,9 @@ struct distribution_1d distribution_1d_make(const float weights[],
     finish(&d);
     return d;
 }
+//< distribution.sums
 
+//> distribution.pick: Find the cell that holds a number
 /* The last cell that starts at or before random. A cell of weight 0 ends where
  * it starts, so a later one is found instead; since random is below 1, which
  * is where all cells end, there is one. */
@@ -83,6 +86,7 @@ uint32_t distribution_1d_sample(const struct distribution_1d *d, float random,
         *remainder = float_min(inside, ONE_MINUS_EPSILON);
     return cell;
 }
+//< distribution.pick
 
 float distribution_1d_probability(const struct distribution_1d *d,
                                   uint32_t cell)
@@ -99,6 +103,7 @@ void distribution_1d_free(struct distribution_1d *d)
     d->count = 0;
 }
 
+//> distribution.square: Pick a row, then a column
 /* How likely each row is: by the sum of its weights. */
 static struct distribution_1d pick_rows(const struct distribution_1d *columns,
                                         uint32_t height)
@@ -128,7 +133,9 @@ void distribution_2d_pick(const struct distribution_2d *d, vec2 random,
     *column =
         distribution_1d_sample(&d->columns[*row], random.x, &remainder->x);
 }
+//< distribution.square
 
+//> distribution.density: Turn a cell into a density
 static float density(const struct distribution_2d *d, uint32_t column,
                      uint32_t row)
 {
@@ -169,6 +176,7 @@ float distribution_2d_pdf(const struct distribution_2d *d, vec2 point)
 {
     return density(d, cell_of(point.x, d->width), cell_of(point.y, d->height));
 }
+//< distribution.density
 
 void distribution_2d_free(struct distribution_2d *d)
 {

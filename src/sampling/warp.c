@@ -4,6 +4,7 @@
 #include "base/constants.h"
 #include "base/minmax.h"
 
+//> warp.disk: Bend the square into a disk
 /* A point of the unit disk at a radius and an angle. */
 static vec2 polar(float radius, float angle)
 {
@@ -24,7 +25,9 @@ float warp_disk_pdf(vec2 point)
 {
     return point.x * point.x + point.y * point.y <= 1.0f ? 1.0f / PI : 0.0f;
 }
+//< warp.disk
 
+//> warp.sphere: Spread directions over the sphere
 /* The direction that is `height` (in [0, 2]) below the pole, measured along
  * the axis: by Archimedes' theorem even heights are even areas. */
 static vec3 below_pole(float height, float turn)
@@ -52,7 +55,9 @@ float warp_hemisphere_pdf(vec3 direction)
 {
     return warp_cone_pdf(direction, 1.0f);
 }
+//< warp.sphere
 
+//> warp.cosine: Lift the disk onto the hemisphere
 vec3 warp_cosine_hemisphere(vec2 random)
 {
     vec2 d = warp_disk(random);
@@ -64,7 +69,9 @@ float warp_cosine_hemisphere_pdf(vec3 direction)
 {
     return float_max(0.0f, direction.z) / PI;
 }
+//< warp.cosine
 
+//> warp.cone: Keep to a cone
 vec3 warp_cone(vec2 random, float one_minus_cosine)
 {
     return below_pole(random.x * one_minus_cosine, random.y);
@@ -83,7 +90,9 @@ float warp_cone_pdf(vec3 direction, float one_minus_cosine)
     bool inside = one_minus_z(direction) <= one_minus_cosine;
     return inside ? 1.0f / (2.0f * PI * one_minus_cosine) : 0.0f;
 }
+//< warp.cone
 
+//> warp.triangle: Fold the square into a triangle
 vec2 warp_triangle(vec2 random)
 {
     float x = random.x, y = random.y;
@@ -98,7 +107,9 @@ float warp_triangle_pdf(vec2 weights)
         weights.x >= 0.0f && weights.y >= 0.0f && weights.x + weights.y <= 1.0f;
     return inside ? 2.0f : 0.0f;
 }
+//< warp.triangle
 
+//> warp.bilinear: Follow a bilinear blend
 /* Over [0, 1], in proportion to a line from a at 0 to b at 1, not both 0: the
  * inverse of the integral, in the form that does not cancel where a = b. */
 static float linear(float random, float a, float b)
@@ -128,3 +139,4 @@ float warp_bilinear_pdf(vec2 point, const float corners[4])
     float right = c[1] + point.y * (c[3] - c[1]);
     return 4.0f * (left + point.x * (right - left)) / sum;
 }
+//< warp.bilinear

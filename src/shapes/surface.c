@@ -11,6 +11,7 @@
 /* The ends of an open range of t, as floats. */
 static const float just_above_0 = FLT_MIN, just_below_1 = 1.0f - 0x1p-24f;
 
+//> surface.footprint: Measure the footprint of a pixel
 /* How the point where a ray meets the plane through it moves when the ray
  * changes: the change of the ray there, slid along the ray back into the
  * plane. t is the distance in units of the direction. */
@@ -56,7 +57,9 @@ void surface_footprint(struct surface *s, const ray *r,
     s->uv_dx = in_texture(s, dp_dx);
     s->uv_dy = in_texture(s, dp_dy);
 }
+//< surface.footprint
 
+//> surface.leave: Start a ray off the surface
 /* nextafterf, inlined: floats of one sign are in the order of their bits. */
 static float next_float(float x, float towards)
 {
@@ -96,7 +99,9 @@ ray surface_ray(const struct surface *s, vec3 direction, float t_max)
 {
     return ray_make(leave(s, direction), direction, just_above_0, t_max);
 }
+//< surface.leave
 
+//> surface.segment: End a ray before its target
 /* How far before the point the way ends, in units of the way: the bound on the
  * error of t where the way meets a surface that holds the point (a lamp that
  * lies on a wall must not be hidden by that wall). Each coordinate passes
@@ -115,3 +120,4 @@ ray surface_segment(const struct surface *s, vec3 point)
     float end = float_min(just_below_1, 1.0f - slack_at_end(start, point));
     return ray_make(start, vec3_sub(point, start), just_above_0, end);
 }
+//< surface.segment
