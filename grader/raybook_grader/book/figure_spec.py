@@ -44,6 +44,8 @@ class FigureSpec:
     @property
     def command(self) -> str:
         """What a reader types to get the picture."""
+        if '"' in self.args:  # which would end ARGS="..."
+            return f"build/raybook {self.args} {self.scene}"
         options = f' ARGS="{self.args}"' if self.args else ""
         return f"make render SCENE={self.scene}{options}"
 
