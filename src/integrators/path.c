@@ -6,6 +6,7 @@
 #include "integrators/mis.h"
 #include "integrators/next_event.h"
 
+//> path.state: A path under way
 /* A path under way. */
 struct path {
     const struct tracer *t;
@@ -20,7 +21,9 @@ struct path {
     int max_scattered, max_rough;
     enum path_profile profile;
 };
+//< path.state
 
+//> path.share: What it counts to hit a light
 /* The share of light that a path hits, beside what a vertex would have got by
  * asking: asked_pdf is how likely it was to ask in this direction. */
 static float share_of_hit(const struct path *p, float asked_pdf)
@@ -30,7 +33,9 @@ static float share_of_hit(const struct path *p, float asked_pdf)
     return p->profile == PROFILE_NEE ? 0.0f
                                      : power_heuristic(p->pdf, asked_pdf);
 }
+//< path.share
 
+//> path.found: Add what the path has hit
 static void add(struct path *p, rgb radiance, float share)
 {
     rgb part = rgb_scale(rgb_mul(p->throughput, radiance), share);
@@ -66,7 +71,9 @@ static void add_environment(struct path *p)
                                direction, nowhere, nowhere);
     add(p, radiance, share_of_hit(p, asked));
 }
+//< path.found
 
+//> path.ask: Ask the lights
 static void ask_lights(struct path *p, const struct vertex *v)
 {
     if (p->profile == PROFILE_RW)
@@ -74,7 +81,9 @@ static void ask_lights(struct path *p, const struct vertex *v)
     rgb found = next_event(p->t, v, p->profile == PROFILE_MIS);
     p->radiance = rgb_add(p->radiance, rgb_mul(p->throughput, found));
 }
+//< path.ask
 
+//> path.survive: End a path that carries little
 /* A path that carries little ends with a probability, and one that survives
  * counts for those that did not: J. Arvo and D. Kirk, "Particle Transport and
  * Image Synthesis", SIGGRAPH 1990. Never surely: 5 % survive at least. */
@@ -90,7 +99,9 @@ static bool survives(struct path *p)
     p->throughput = rgb_scale(w, 1.0f / chance);
     return true;
 }
+//< path.survive
 
+//> path.scatter: Go on from a vertex
 static bool scatter_on(struct path *p, const struct vertex *v)
 {
     struct scatter way;
@@ -104,7 +115,9 @@ static bool scatter_on(struct path *p, const struct vertex *v)
     p->rough += way.specular ? 0 : 1;
     return !rgb_is_black(p->throughput) && survives(p);
 }
+//< path.scatter
 
+//> path.walk: Walk from vertex to vertex
 static rgb walk(struct path *p)
 {
     for (;;) {
@@ -125,7 +138,9 @@ static rgb walk(struct path *p)
     }
     return p->radiance;
 }
+//< path.walk
 
+//> path.start: Begin at the camera
 static struct path start(const struct tracer *t, ray r,
                          struct ray_differential d)
 {
@@ -152,3 +167,4 @@ rgb direct_radiance(const struct tracer *t, ray r, struct ray_differential d)
     p.profile = PROFILE_MIS;
     return walk(&p);
 }
+//< path.start

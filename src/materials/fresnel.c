@@ -5,6 +5,7 @@
 
 #include "base/minmax.h"
 
+//> fresnel.dielectric: Reflect off glass
 float fresnel_dielectric(float cosine, float eta_beyond_over_here)
 {
     float ratio = 1.0f / eta_beyond_over_here;
@@ -18,7 +19,9 @@ float fresnel_dielectric(float cosine, float eta_beyond_over_here)
     float in_plane = (cosine - ratio * beyond) / (cosine + ratio * beyond);
     return 0.5f * (across * across + in_plane * in_plane);
 }
+//< fresnel.dielectric
 
+//> fresnel.conductor: Reflect off metal
 /* Born and Wolf's u2 and v2 (14.2, equation 8) are the real and imaginary part
  * of (eta + ik) times the cosine inside; only u and u2 + v2 are needed. */
 float fresnel_conductor(float cosine, float eta, float k)
@@ -36,3 +39,4 @@ float fresnel_conductor(float cosine, float eta, float k)
     /* Rounding may take an invisible metal, eta = 1 and k = 0, below 0. */
     return float_max(0.0f, 0.5f * (across + in_plane));
 }
+//< fresnel.conductor

@@ -5,13 +5,16 @@
 #include "base/minmax.h"
 #include "sampling/warp.h"
 
+//> ggx.density: How many mirrors lie like this
 float ggx_density(vec2 alpha, vec3 normal)
 {
     float x = normal.x / alpha.x, y = normal.y / alpha.y;
     float length2 = x * x + y * y + normal.z * normal.z;
     return 1.0f / (PI * alpha.x * alpha.y * length2 * length2);
 }
+//< ggx.density
 
+//> ggx.seen: How many of them are seen
 /* Rough mirrors become a hemisphere when the surface is stretched. */
 static vec3 stretch(vec2 alpha, vec3 v)
 {
@@ -22,7 +25,9 @@ float ggx_seen_over_cosine(vec2 alpha, vec3 direction)
 {
     return 2.0f / (direction.z + vec3_length(stretch(alpha, direction)));
 }
+//< ggx.seen
 
+//> ggx.sample: Pick a mirror that is seen
 /* A unit vector at right angles to v that is level: z = 0. */
 static vec3 level(vec3 v)
 {
@@ -53,3 +58,4 @@ vec3 ggx_sample_seen(vec2 alpha, vec3 direction, vec2 random)
     n.z = float_max(0.0f, n.z);
     return vec3_normalize(stretch(alpha, n));
 }
+//< ggx.sample

@@ -8,6 +8,7 @@
 #include "materials/sides.h"
 #include "materials/surface_color.h"
 
+//> rough_conductor.meet: Find the mirror between two directions
 /* Two directions in the shading frame, and the normal halfway between. */
 struct meeting {
     vec3 outgoing, incoming, half;
@@ -24,7 +25,9 @@ static bool meet(const struct surface *s, vec3 outgoing, vec3 incoming,
     out->half = vec3_normalize(vec3_add(out->outgoing, out->incoming));
     return true;
 }
+//< rough_conductor.meet
 
+//> rough_conductor.color: The colour of the metal
 static vec2 roughness(const struct material *m)
 {
     return vec2_make(m->alpha_x, m->alpha_y);
@@ -43,7 +46,9 @@ static rgb tinted_reflectance(const struct material *m, const struct surface *s,
 {
     return rgb_mul(surface_color(m->albedo, s), reflectance(m, cosine));
 }
+//< rough_conductor.color
 
+//> rough_conductor.eval: Evaluate the BSDF
 rgb rough_conductor_eval(const struct material *m, const struct surface *s,
                          vec3 outgoing, vec3 incoming)
 {
@@ -57,7 +62,9 @@ rgb rough_conductor_eval(const struct material *m, const struct surface *s,
     rgb color = tinted_reflectance(m, s, vec3_dot(d.outgoing, d.half));
     return rgb_scale(color, mirrors);
 }
+//< rough_conductor.eval
 
+//> rough_conductor.pdf: The density of a direction off metal
 float rough_conductor_pdf(const struct material *m, const struct surface *s,
                           vec3 outgoing, vec3 incoming)
 {
@@ -70,7 +77,9 @@ float rough_conductor_pdf(const struct material *m, const struct surface *s,
     return 0.25f * ggx_density(alpha, d.half) *
            ggx_seen_over_cosine(alpha, d.outgoing);
 }
+//< rough_conductor.pdf
 
+//> rough_conductor.sample: Pick a direction off metal
 bool rough_conductor_sample(const struct material *m, const struct surface *s,
                             vec3 outgoing, const float random[3],
                             struct scatter *out)
@@ -93,6 +102,7 @@ bool rough_conductor_sample(const struct material *m, const struct surface *s,
     out->weight = rgb_scale(color, seen);
     return true;
 }
+//< rough_conductor.sample
 
 rgb rough_conductor_albedo(const struct material *m, const struct surface *s)
 {

@@ -1,6 +1,7 @@
 /* specular_differential.c - see specular_differential.h. */
 #include "materials/specular_differential.h"
 
+//> specular_differential.turn: One bounce, and its normal
 /* One bounce: the directions before and after it run with the ray, the normal
  * faces the first of them. ratio: the index here over the index beyond. */
 struct turn {
@@ -36,7 +37,9 @@ static struct turn turn_make(const struct material *m, const struct surface *s,
         t.normal = vec3_negate(t.normal);
     return t;
 }
+//< specular_differential.turn
 
+//> specular_differential.mirror: What a mirror does to a width
 /* after = before - 2 (before . normal) normal */
 static vec3 reflected_change(const struct turn *t, vec3 before_change,
                              vec3 normal_change)
@@ -47,7 +50,9 @@ static vec3 reflected_change(const struct turn *t, vec3 before_change,
     vec3 step = vec3_step(before_change, -2.0f * cosine, normal_change);
     return vec3_step(step, -2.0f * cosine_change, t->normal);
 }
+//< specular_differential.mirror
 
+//> specular_differential.lens: What a boundary does to a width
 /* after = ratio before - mu normal; mu = ratio (before . normal) -
  * (after . normal), where the last is a cosine that Snell's law ties to the
  * first: Igehy's equations 15 to 18. */
@@ -65,6 +70,7 @@ static vec3 refracted_change(const struct turn *t, vec3 before_change,
         vec3_step(vec3_scale(before_change, t->ratio), -mu, normal_change);
     return vec3_step(step, -mu_change, t->normal);
 }
+//< specular_differential.lens
 
 /* dn_du and dn_dv are the shading normal's. At the rim of a mesh the geometric
  * one may stand in for it; its turning is not known, and this one serves. */

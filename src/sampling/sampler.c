@@ -9,6 +9,7 @@
 const char *const sampler_names[] = {"independent", "stratified", "sobol",
                                      NULL};
 
+//> sampler.start: Begin a sample
 struct sampler sampler_start(enum sampler_kind kind, uint64_t seed,
                              uint64_t pixel, uint32_t sample, uint32_t spp)
 {
@@ -21,12 +22,16 @@ struct sampler sampler_start(enum sampler_kind kind, uint64_t seed,
     s.dimension = 0;
     return s;
 }
+//< sampler.start
 
+//> sampler.independent: Independent numbers
 static float independent(struct sampler *s)
 {
     return random_float(s->key, s->dimension++);
 }
+//< sampler.independent
 
+//> sampler.stratified: One number in each stratum
 /* A hash that all samples of the pixel share, one for each dimension. */
 static uint32_t dimension_hash(const struct sampler *s)
 {
@@ -67,7 +72,9 @@ static vec2 stratified_2d(struct sampler *s)
     float y = in_stratum(i / columns, rows, independent(s));
     return vec2_make(x, y);
 }
+//< sampler.stratified
 
+//> sampler.sobol: A point of a scrambled net
 /* The first two dimensions of Sobol's sequence are a (0,2)-sequence: any
  * power of two consecutive points is evenly spread. The order is shuffled, so
  * that pairs of different dimensions are not related. */
@@ -80,7 +87,9 @@ static vec2 sobol_2d(struct sampler *s)
     return vec2_make(scramble_to_float(scramble_owen(x, hash ^ 0x55555555u)),
                      scramble_to_float(scramble_owen(y, hash ^ 0xaaaaaaaau)));
 }
+//< sampler.sobol
 
+//> sampler.read: Read the next number or pair
 float sampler_1d(struct sampler *s)
 {
     switch (s->kind) {
@@ -111,3 +120,4 @@ vec2 sampler_2d(struct sampler *s)
     float y = independent(s);
     return vec2_make(x, y);
 }
+//< sampler.read

@@ -1,6 +1,7 @@
 /* scramble.c - see scramble.h. */
 #include "sampling/scramble.h"
 
+//> scramble.permute: Shuffle without a table
 /* Every step is a bijection of the numbers up to mask: xor and odd products
  * modulo a power of two, and xors with shifted-down selves. */
 static uint32_t mix_below(uint32_t i, uint32_t mask, uint32_t hash)
@@ -27,7 +28,9 @@ uint32_t scramble_permute(uint32_t i, uint32_t count, uint32_t hash)
     while (i >= count);
     return (uint32_t)(((uint64_t)i + hash) % count);
 }
+//< scramble.permute
 
+//> scramble.sobol: The second coordinate of a Sobol point
 /* The generator matrix is Pascal's triangle modulo 2, which repeats itself in
  * its halves: with P the triangle of half the size it is
  *
@@ -45,7 +48,9 @@ uint32_t scramble_sobol_second(uint32_t i)
     x ^= (x & 0x33333333u) << 2;
     return x ^ (x & 0x55555555u) << 1;
 }
+//< scramble.sobol
 
+//> scramble.owen: Scramble digit by digit
 /* Each bit of the result depends on the bits below it only. */
 static uint32_t mix_upwards(uint32_t x, uint32_t hash)
 {
@@ -62,3 +67,4 @@ uint32_t scramble_owen(uint32_t fraction, uint32_t hash)
     uint32_t mixed = mix_upwards(scramble_reverse_bits(fraction), hash);
     return scramble_reverse_bits(mixed);
 }
+//< scramble.owen

@@ -31,6 +31,7 @@ struct parser {
     bool lacks_uv, lacks_normal; /* some corner came without */
 };
 
+//> obj_reader.faults: Tell where a file is wrong
 /* Faults ------------------------------------------------------------------ */
 
 /* Reports a fault at a place in the current line. */
@@ -84,7 +85,9 @@ static struct quoted quote(const char *at)
     q.text[n] = '\0';
     return q;
 }
+//< obj_reader.faults
 
+//> obj_reader.words: Find the next word
 /* Lines and words --------------------------------------------------------- */
 
 static void start_next_line(struct parser *p)
@@ -134,7 +137,9 @@ static void skip_rest_of_line(struct parser *p)
         p->cursor++;
     skip_comment(p);
 }
+//< obj_reader.words
 
+//> obj_reader.numbers: Read numbers
 /* Numbers ----------------------------------------------------------------- */
 
 /* One finite number. what says which, for the message. */
@@ -169,7 +174,9 @@ static bool parse_extra_numbers(struct parser *p)
             return false;
     return true;
 }
+//< obj_reader.numbers
 
+//> obj_reader.vertices: Read positions, normals and texture coordinates
 /* Vertices ---------------------------------------------------------------- */
 
 /* block with room for one more element than count; the pointer it returns
@@ -216,7 +223,9 @@ static bool parse_uv(struct parser *p)
     p->uvs[p->uv_count++] = vec2_make(uv.x, 1.0f - uv.y);
     return true;
 }
+//< obj_reader.vertices
 
+//> obj_reader.corners: Read the corners of a face
 /* Corners ----------------------------------------------------------------- */
 
 /* A whole number stops growing here: out of any mesh's range. */
@@ -306,7 +315,9 @@ static bool parse_corner(struct parser *p, uint32_t *out)
     *out = corner_set_find(&p->corners, c);
     return true;
 }
+//< obj_reader.corners
 
+//> obj_reader.faces: Cut a face into triangles
 /* Faces ------------------------------------------------------------------- */
 
 static void add_index(struct parser *p, uint32_t vertex)
@@ -340,7 +351,9 @@ static bool parse_face(struct parser *p)
                     "a face needs at least 3 corners, this one has %u", count);
     return true;
 }
+//< obj_reader.faces
 
+//> obj_reader.file: Read line by line
 /* The file ---------------------------------------------------------------- */
 
 /* Is this the keyword at the cursor? Then moves behind it. */
@@ -386,7 +399,9 @@ static bool parse_text(struct parser *p, const char *text)
                          p->path);
     return true;
 }
+//< obj_reader.file
 
+//> obj_reader.gather: Make the mesh
 /* The mesh's arrays from the file's, by the distinct corners. */
 static void gather(const struct parser *p, struct mesh *out)
 {
@@ -434,3 +449,4 @@ bool obj_read(const char *path, struct mesh *out, struct error *err)
     release(&p);
     return ok;
 }
+//< obj_reader.gather

@@ -3,6 +3,7 @@
 
 #include "base/minmax.h"
 
+//> ellipse.footprint: The ellipse of a footprint
 struct ellipse ellipse_of_footprint(const struct mipmap *m, vec2 uv_dx,
                                     vec2 uv_dy)
 {
@@ -14,7 +15,9 @@ struct ellipse ellipse_of_footprint(const struct mipmap *m, vec2 uv_dx,
                         ay * ay + by * by};
     return e;
 }
+//< ellipse.footprint
 
+//> ellipse.widen: Make a needle wider
 static const float most_anisotropy = 64.0f;
 
 /* The squares of the half axes are mean + spread and mean - spread; a matrix
@@ -35,6 +38,7 @@ double ellipse_widen(struct ellipse *e, float max_anisotropy)
     e->yy = keep * e->yy + add;
     return sqrt(wanted);
 }
+//< ellipse.widen
 
 void ellipse_limit_repeats(struct ellipse *e, const struct mipmap *m)
 {
@@ -46,6 +50,7 @@ void ellipse_limit_repeats(struct ellipse *e, const struct mipmap *m)
     e->yy *= y * y;
 }
 
+//> ellipse.level: The ellipse on another level
 /* Interpolation blurs with a variance of 1/6 along each axis, and the weights
  * of mipmap_ewa have one of 0.21 when the ellipse is the unit circle: so the
  * sum of texels that comes nearest to the integral over the interpolated image
@@ -62,3 +67,4 @@ struct ellipse ellipse_on_level(const struct ellipse *e, const struct mipmap *m,
                                e->yy * y * y + texel};
     return on_level;
 }
+//< ellipse.level

@@ -26,6 +26,7 @@ void mipmap_free(struct mipmap *m)
 
 /* ---- texels ---- */
 
+//> levels.wrap: Wrap an index
 /* The remainder that lies in 0 .. n - 1, also of a negative i. Mostly i is next
  * to that range, and takes no division, which is slow. */
 static int floor_mod(int i, int n)
@@ -67,9 +68,11 @@ rgb mipmap_texel(const struct mipmap *m, int level, int x, int y)
         return rgb_grey(0.0f);
     return image->pixels[(size_t)row * (size_t)image->width + (size_t)column];
 }
+//< levels.wrap
 
 /* ---- places between the texels ---- */
 
+//> levels.lookup: Look up a place between the texels
 double mipmap_in_texels(const struct mipmap *m, float u, int size)
 {
     double x = isfinite(u) ? u : 0.0;
@@ -105,3 +108,4 @@ rgb mipmap_bilinear(const struct mipmap *m, int level, vec2 uv)
                         mipmap_texel(m, level, column + 1, row + 1), s);
     return rgb_mix(upper, lower, t);
 }
+//< levels.lookup
