@@ -140,6 +140,10 @@ def test_a_phone_scrolls_down_only(paper: Path, browser: Browser, site: Path) ->
     for page in ("index.html", DISC, "chapters/02-mean.html"):
         with reading(browser, site, page, width=360) as read:
             assert read.js("() => document.documentElement.scrollWidth") <= 360, page
+            if page == DISC:
+                box = "document.querySelector('{}').getBoundingClientRect()"
+                formula, number = box.format(".math-body"), box.format(".eqno")
+                assert read.js(f"() => {formula}.right <= {number}.left"), "side by side"
 
 
 def test_the_page_has_an_order(paper: Path, browser: Browser, site: Path) -> None:
