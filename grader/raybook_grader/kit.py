@@ -87,6 +87,11 @@ def load_kit(folder: Path) -> Kit:
     return kit
 
 
+def is_clang(cc: str) -> bool:
+    """Whether a compiler understands clang's flags where they are not gcc's."""
+    return Path(cc).name.startswith("clang")
+
+
 def _texts(value: Any) -> tuple[str, ...]:
     if not isinstance(value, list) or not all(isinstance(item, str) for item in value):
         raise ValueError(f"{value!r} is no list of texts")

@@ -1,7 +1,7 @@
 /* counters.c - see counters.h. */
 #include "base/counters.h"
 
-struct counters counters_mine;
+__thread struct counters counters_mine;
 
 void counters_flush(struct counters *total)
 {

@@ -19,11 +19,12 @@ struct counters {
     uint64_t samples;           /* image samples finished */
 };
 
-/* The calling thread's own counters, zero when the thread starts. */
-extern struct counters counters_mine;
-#ifdef _OPENMP
-#pragma omp threadprivate(counters_mine)
-#endif
+/* The calling thread's own counters, zero when the thread starts.
+ *
+ * gcc's and clang's word, since C99 has none. OpenMP's threadprivate would do,
+ * but clang looks for an initializer at each use, and objects of which some
+ * are gcc's then cannot always be linked. */
+extern __thread struct counters counters_mine;
 
 /* Adds the calling thread's counters to *total and zeroes them. The caller
  * sees to it that one thread at a time does so. */

@@ -13,9 +13,9 @@ from functools import cache, cached_property
 from pathlib import Path, PurePosixPath
 
 from ..course import Assignment, Course
-from ..kit import Kit
+from ..kit import Kit, is_clang
 from ..sandbox import Box, BoxResult, Limits
-from .sanitizers import FLAGS as SANITIZE
+from .sanitizers import sanitizing
 from .words import clean
 
 _INCLUDE = "/kit/include"
@@ -83,9 +83,10 @@ class Workshop:
 
     def sanitized_driver(self, module: ModuleObjects, source: Path) -> bytes:
         """The same, with the module and the driver under the sanitizers."""
-        watched = self._compile(module.files, SANITIZE)
-        driver = self._trusted(source, SANITIZE)
-        return self._link(watched, {"driver.o": driver}, with_main=False, flags=SANITIZE)
+        flags = sanitizing(self.kit.cc)
+        watched = self._compile(module.files, flags)
+        driver = self._trusted(source, flags)
+        return self._link(watched, {"driver.o": driver}, with_main=False, flags=flags)
 
     def _tool(self, source: Path) -> bytes:
         """A trusted program of one file, built once a process, that no student's code is in."""
@@ -95,7 +96,8 @@ class Workshop:
         """A module's texts as the compiler reads them when it compiles for the sanitizers."""
         texts = []
         for path, content in sorted(module.files.items()):
-            done = self._run_compiler(path, content, [*SANITIZE, "-w", "-E", "-P"], "text.i")
+            flags = [*sanitizing(self.kit.cc), "-w", "-E", "-P"]
+            done = self._run_compiler(path, content, flags, "text.i")
             if not done.ok or "text.i" not in done.files:
                 raise HarnessFault(f"{path} compiled, but is not preprocessed: {done.describe()}")
             texts.append(done.files["text.i"])
@@ -138,8 +140,9 @@ class Workshop:
     ) -> BoxResult:
         """The compiler on one of a student's files, with the public headers in reach."""
         beside = f"{_INCLUDE}/{PurePosixPath(path).parent.relative_to('src')}"
+        most_errors = "-ferror-limit=20" if is_clang(self.kit.cc) else "-fmax-errors=20"
         return self.box.run(
-            [self.kit.cc, *self.kit.cflags, "-Wno-error", "-fmax-errors=20",
+            [self.kit.cc, *self.kit.cflags, "-Wno-error", most_errors,
              "-fdiagnostics-color=never", "-I", _INCLUDE, "-iquote", beside,
              *flags, f"./{path}", "-o", output],
             binds={_INCLUDE: self.kit.include},

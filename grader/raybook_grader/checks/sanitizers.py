@@ -10,17 +10,25 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ..kit import is_clang
 from .sanitizer_words import known_words
 from .words import clean
 
-FLAGS = ("-O1", "-g", "-fsanitize=address,undefined,float-cast-overflow",
-         "-fno-sanitize-recover=all", "-U__SANITIZE_ADDRESS__")  # fmt: skip
-"""For the compiler, after its other flags; for the linker, all but the level do no harm.
+_FLAGS = ("-g", "-fsanitize=address,undefined,float-cast-overflow",
+          "-fno-sanitize-recover=all", "-U__SANITIZE_ADDRESS__")  # fmt: skip
+"""For the compiler, after its other flags; for the linker they do no harm.
 
 `-fsanitize=undefined` leaves out the conversion of a NaN or of 1e30 to an int, which is as
 undefined as the rest. A division of floats by zero is not: it is infinite. The macro would tell a
 module when it is watched.
 """
+
+
+def sanitizing(cc: str) -> tuple[str, ...]:
+    """The flags for a compiler. clang drops a read whose value is not used before its sanitizers
+    see it, at any level but the lowest."""
+    return ("-O0" if is_clang(cc) else "-O1", *_FLAGS)
+
 
 ENVIRONMENT = {
     # Looking for leaks needs ptrace, which the box refuses; malloc returns NULL as it does
