@@ -17,6 +17,8 @@ PIXEL ?=
 STRICT ?=
 SUBMISSIONS ?=
 python := build/venv/bin/python
+# For the makes below that compile; a caller's own -j goes before.
+jobs := $(if $(filter -j%,$(MAKEFLAGS)),,-j$(shell nproc))
 student := $(python) -m raybook_grader.student
 grader := build/venv/bin/raybook-grader
 
@@ -36,16 +38,16 @@ build: $(program) ## compiles the renderer; says where it is
 # (pkg-config) may only be there after it.
 render: ## [SCENE=file.json] [ARGS="--spp 16"] draws the demo scenes and a contact sheet into build/out/
 	@.setup/setup.sh
-	@$(MAKE) render-scenes
+	@$(MAKE) $(jobs) render-scenes
 	@$(if $(word 2,$(SCENE)),$(python) scenes/contact_sheet.py build/out/contact-sheet.png $(SCENE))
 
 test: ## every test: format, C (Unity, also with sanitizers), Python, end to end
 	@.setup/setup.sh
 	@.setup/setup.sh book
 	@$(MAKE) check-format check-python
-	@$(MAKE) unit-tests
-	@$(MAKE) unit-tests OPT=asan
-	@$(MAKE) -s $(program) build/meshes/done compile_commands.json kit
+	@$(MAKE) $(jobs) unit-tests
+	@$(MAKE) $(jobs) unit-tests OPT=asan
+	@$(MAKE) $(jobs) -s $(program) build/meshes/done compile_commands.json kit
 	@$(python) -m pytest -q -n auto --dist loadfile $(ARGS)
 
 format: ## writes the C files in the house style (.clang-format)
@@ -113,7 +115,7 @@ references: ## renders the statistics that are committed in grader/statistics/
 
 # The reference as objects, for linking with one module of a student.
 kit: build/meshes/done ## what the grader links students' modules with: build/kit/
-	@$(MAKE) OPT=release EMBREE=no objects lto= config=kit
+	@$(MAKE) $(jobs) OPT=release EMBREE=no objects lto= config=kit
 
 objects: $(objects)
 	@python3 grader/make_kit.py --objects $(objdir) --out build/kit --version '$(VERSION)' \
