@@ -92,6 +92,7 @@ static rgb look(void)
         none);
     accel_free(&scene.accel);
     mem_free(scene.primitives);
+    mem_free(scene.first_primitive);
     light_table_free(&scene.light_table);
     return seen;
 }
