@@ -24,7 +24,7 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -295,6 +295,17 @@ def check(before: Found, after: Found, wholes: Sequence[Found]) -> None:
     assert grades is None or any(grades == whole.files["grades.json"] for whole in wholes)
 
 
+def difference(found: Mapping[str, str], meant: Mapping[str, str]) -> str:
+    """Other grades or pages: which files, and where the first that is in both begins to differ."""
+    words = [f"only in one: {sorted(found.keys() ^ meant.keys())}"]
+    for name in sorted(found.keys() & meant.keys()):
+        a, b = found[name], meant[name]
+        if a != b:
+            at = next((i for i, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), 0)
+            words.append(f"{name}: {a[max(0, at - 80) : at + 80]!r} for {b[at : at + 80]!r}")
+    return "\n".join(words)
+
+
 def run_round(
     place: Place, wholes: tuple[Found, Found], table: Table, kills: int, source: random.Random,
     seconds: float,
@@ -316,7 +327,7 @@ def run_round(
         finish(arguments)
         after = look(place.out)
         assert set(after.work) == set(whole.work), "results are missing, or there are too many"
-        assert after.files == whole.files, "other grades or pages"
+        assert after.files == whole.files, difference(after.files, whole.files)
     table.rounds += 1
 
 
