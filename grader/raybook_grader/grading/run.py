@@ -18,7 +18,7 @@ from ..files import sweep
 from ..jobs.pool import Died
 from ..jobs.progress import Progressing, progress
 from ..policy import Policy
-from ..reports import INDEX, write_reports
+from ..reports import INDEX, STUDENTS, write_reports
 from ..scoring import Verdict
 from ..submissions import Submission, find_submissions
 from .agree import agree
@@ -57,8 +57,7 @@ def grade_class(course: Course, worker: Worker, order: Order, console: Console) 
     submissions, ignored = find_submissions(order.submissions, owned, rules.zone)
     refuse_unknown(order.regrade, submissions)
     with alone_in(order.out), closing(Database(order.out, course.name)) as database:
-        for written in (order.out, order.out / "students"):
-            sweep(written)
+        _sweep(order.out)
         before = snapshot(database)
         planned = plan(course, worker, order, assignments, submissions, database)
         jobs = planned.jobs
@@ -77,6 +76,15 @@ def grade_class(course: Course, worker: Worker, order: Order, console: Console) 
         write_grades(database, order.out)
         write_reports(database, order.out)
     return outcome
+
+
+def _sweep(out: Path) -> None:
+    """Remove what a killed run was writing: next to the grades, the students' pages, and the pages
+    of each student's modules."""
+    students = out / STUDENTS
+    folders = [path for path in students.glob("*") if path.is_dir() and not path.is_symlink()]
+    for folder in (out, students, *folders):
+        sweep(folder)
 
 
 def _introduce(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import time
@@ -149,3 +150,18 @@ def test_equal_work_is_done_once(course: Path, tmp_path: Path) -> None:
     assert ended.returncode == 0
     assert len(done(tmp_path / "out")) == 1
     assert len(grades(tmp_path / "out")) == 3
+
+
+def test_half_written_files_of_a_killed_run_go(
+    submissions: Path, course: Path, whole: Path, tmp_path: Path
+) -> None:
+    """Wherever pages are written: beside the grades, for each student, for each module."""
+    out = tmp_path / "out"
+    shutil.copytree(whole, out)
+    pages = [out / "index.html", *(out / "students").rglob("*.html")]
+    assert {len(page.relative_to(out).parts) for page in pages} == {1, 2, 3}
+    for page in pages:
+        page.with_name(f".{page.name}.x1y2.part").write_text("half a pa")
+    ended = run("grade", submissions, "--out", out, "--course", course)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert not list(out.rglob("*.part"))
