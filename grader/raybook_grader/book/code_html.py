@@ -11,6 +11,9 @@ from .editions import BookItem, BookLine
 from .highlight import highlight
 from .identifiers import Definition
 
+_FEW = 6
+"""Places that a name is used in; of more, the list is folded."""
+
 
 class CodeBox:
     """One piece on one page."""
@@ -122,7 +125,10 @@ class CodeBox:
     def _uses_of(self, definition: Definition) -> str:
         users = self._woven.identifiers.used_in.get(definition, [])
         links = ", ".join(map(self._reference, users))
-        return f"<p><code>{definition.name}</code> is used in {links}</p>" if users else ""
+        name = f"<code>{definition.name}</code> is used in"
+        if len(users) <= _FEW:
+            return f"<p>{name} {links}</p>" if users else ""
+        return f"<details><summary>{name} {len(users)} places</summary><p>{links}</p></details>"
 
     # Links.
 
