@@ -56,13 +56,14 @@ bool primitive_corners(const void *scene, uint32_t primitive, vec3 corners[3])
 aabb primitive_box(const void *scene, uint32_t primitive)
 {
     const struct scene *s = scene;
-    const struct object *o = &s->objects[primitive_object(s, primitive)];
+    uint32_t object = primitive_object(s, primitive);
+    const struct object *o = &s->objects[object];
     vec3 p[3];
     if (o->kind == OBJECT_SPHERE)
         return sphere_bounds(&o->sphere);
     if (o->kind == OBJECT_RECT)
         return rect_bounds(&o->rect);
-    primitive_corners(scene, primitive, p);
+    mesh_corners(&o->mesh, primitive - s->first_primitive[object], p);
     return aabb_include(aabb_include(aabb_include(aabb_empty(), p[0]), p[1]),
                         p[2]);
 }

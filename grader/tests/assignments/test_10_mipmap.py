@@ -82,7 +82,7 @@ MUTANTS = {
                               "return rgb_mix(color, mipmap_bilinear(m, fine, uv),", TRILINEAR),
     "nearest": ("return rgb_mix(color, mipmap_bilinear(m, fine + 1, uv),",
                 "return rgb_mix(color, mipmap_nearest(m, fine + 1, uv),", TRILINEAR),
-    "a square for a bell": ("return fmaxf(expf(-2.0f * (float)distance2) - lowest, 0.0f);",
+    "a square for a bell": ("return float_max(expf(-2.0f * (float)distance2) - lowest, 0.0f);",
                             "return distance2 + lowest > 0.0 ? 1.0 : 0.0;", EWA),
     "a narrow bell": ("expf(-2.0f *", "expf(-6.0f *", EWA),
     "the mirrored ellipse": ("double slope = e.xy / e.yy", "double slope = -e.xy / e.yy", EWA),
