@@ -55,7 +55,8 @@ struct accel accel_build(enum accel_kind kind, const aabb boxes[],
                          uint32_t primitive_count, uint32_t order[])
 {
     struct accel a = {.kind = kind, .primitive_count = primitive_count};
-    const struct wide_source source = {primitive_count, boxes, NULL, box_at};
+    const struct wide_source source = {primitive_count, NULL, boxes, NULL,
+                                       box_at};
     assert(accel_available(kind));
     for (uint32_t i = 0; i < primitive_count; i++)
         order[i] = i;

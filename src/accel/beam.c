@@ -49,7 +49,8 @@ static void make_shear(struct beam *b, const ray *r, float width)
     b->width_t = width * fabsf(b->scale_z);
 }
 
-bool beam_make(const ray *r, const aabb *box, struct beam *out)
+bool beam_make(const ray *r, const aabb *box, struct beam_margin margin,
+               struct beam *out)
 {
     vec3 o = r->origin, inverse = r->inverse_direction;
     float reach = greater(largest(vec3_sub(box->upper, o)),
@@ -59,10 +60,12 @@ bool beam_make(const ray *r, const aabb *box, struct beam *out)
     float least = fabsf(vec3_axis(inverse, out->z));
     if (!(far <= 0x1p60f && far * least <= 0x1p84f))
         return false;
-    float steepest = least / least_slope, width = box_width * far;
+    float steepest = least / least_slope;
+    float more = margin.factor * far + margin.length;
+    float width = box_width * far + more;
     make_slab(out, 0, o.x, inverse.x, steepest, width);
     make_slab(out, 1, o.y, inverse.y, steepest, width);
     make_slab(out, 2, o.z, inverse.z, steepest, width);
-    make_shear(out, r, triangle_width * reach);
+    make_shear(out, r, triangle_width * reach + more);
     return true;
 }

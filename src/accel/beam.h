@@ -12,7 +12,8 @@
  *   2 u o + 5 u R for a plane of a box,
  *   7 u R         for a corner of a triangle, seen along the ray,
  * plus 2 u R, since triangle_intersect accepts a little beyond the edges. The
- * beam is 8 u (o + R) wide for boxes and 16 u R for triangles. */
+ * beam is 8 u (o + R) wide for boxes and 16 u R for triangles, and by a margin
+ * wider where the ray itself is not exact. */
 #ifndef RAYBOOK_ACCEL_BEAM_H
 #define RAYBOOK_ACCEL_BEAM_H
 
@@ -38,9 +39,15 @@ struct beam {
     float width_t; /* the same as a difference of t */
 };
 
+/* How far the ray may be from where it should be: factor (o + R) + length. */
+struct beam_margin {
+    float factor, length;
+};
+
 /* Prepares the quick tests of things in the box. False: the ray or the box is
  * so large (beyond 2^60), or the direction so short, that single precision
  * might overflow. */
-bool beam_make(const ray *r, const aabb *box, struct beam *out);
+bool beam_make(const ray *r, const aabb *box, struct beam_margin margin,
+               struct beam *out);
 
 #endif

@@ -71,7 +71,7 @@ static bool test_other(const void *context, uint32_t i, uint32_t count, ray *r,
 
 static struct wide build(void)
 {
-    const struct wide_source source = {things.count, &things, corners_of,
+    const struct wide_source source = {things.count, NULL, &things, corners_of,
                                        box_of};
     return wide_build(&source);
 }
@@ -368,7 +368,7 @@ static void depth_is_bounded_whatever_the_sizes(void)
 
 static void coordinates_without_measure_end_the_build_too(void)
 {
-    const struct wide_source source = {100, &things, corners_of, box_of};
+    const struct wide_source source = {100, NULL, &things, corners_of, box_of};
     scatter(100, vec3_make(0, 0, 0), 1e38f);
     tree = wide_build(&source);
     TEST_ASSERT_TRUE(tree.pack_count >= 100 / WIDE);

@@ -1,6 +1,8 @@
 /* wide.c - walking through the wide tree; see wide.h. */
 #include "accel/wide.h"
 
+#include <stddef.h>
+
 #include "accel/beam.h"
 #include "accel/lanes.h"
 #include "base/counters.h"
@@ -9,7 +11,8 @@
 //> wide.query: What a walk knows
 struct query {
     const struct wide *tree;
-    struct beam beam;
+    const struct placement *place; /* NULL: the tree is in the world */
+    struct beam beam; /* where the tree is; the ray is the world's */
     ray *r;
     leaf_test_fn *test;
     const void *context;
@@ -140,14 +143,18 @@ static inline void try_triangles(const struct wide_pack *restrict p,
 static bool confirm(const struct query *q, const struct wide_pack *p, int lane,
                     bool any)
 {
-    vec3 corners[3];
+    vec3 corners[3], moved[3];
     struct triangle_hit found;
     for (int i = 0; i < 3; i++)
         corners[i] = vec3_make(p->corner[i][0][lane], p->corner[i][1][lane],
                                p->corner[i][2][lane]);
-    if (!triangle_intersect(corners, q->r, &found))
+    if (q->place != NULL)
+        placement_corners(q->place, corners, moved);
+    if (!triangle_intersect(q->place != NULL ? moved : corners, q->r, &found))
         return false;
     struct nearest hit = {p->primitive[lane], found.t, found.b1, found.b2};
+    if (q->place != NULL)
+        hit.primitive += q->place->first_primitive;
     if (any)
         return hit.t <= ((const struct nearest *)q->hit)->t;
     return nearest_offer(q->hit, &hit, q->r);
@@ -219,6 +226,8 @@ static inline bool walk(const struct query *q, bool any)
 }
 //< wide.walk
 
+static const struct beam_margin no_margin = {0.0f, 0.0f};
+
 /* Every primitive, for a ray that single precision is too narrow for. */
 static bool ask_all(const struct query *q, bool any)
 {
@@ -235,15 +244,21 @@ static bool ask_all(const struct query *q, bool any)
     return found;
 }
 
+static inline bool ask(struct query *q, const ray *seen,
+                       struct beam_margin margin, bool any)
+{
+    if (q->tree->pack_count == 0)
+        return false;
+    return beam_make(seen, &q->tree->box, margin, &q->beam) ? walk(q, any)
+                                                            : ask_all(q, any);
+}
+
 bool wide_nearest(const struct wide *tree, ray *r, leaf_test_fn *test,
                   const void *context, void *hit)
 {
     struct query q = {
         .tree = tree, .r = r, .test = test, .context = context, .hit = hit};
-    if (tree->pack_count == 0)
-        return false;
-    return beam_make(r, &tree->box, &q.beam) ? walk(&q, false)
-                                             : ask_all(&q, false);
+    return ask(&q, r, no_margin, false);
 }
 
 bool wide_any(const struct wide *tree, ray *r, leaf_test_fn *test,
@@ -251,8 +266,23 @@ bool wide_any(const struct wide *tree, ray *r, leaf_test_fn *test,
 {
     struct query q = {
         .tree = tree, .r = r, .test = test, .context = context, .hit = hit};
-    if (tree->pack_count == 0)
-        return false;
-    return beam_make(r, &tree->box, &q.beam) ? walk(&q, true)
-                                             : ask_all(&q, true);
+    return ask(&q, r, no_margin, true);
 }
+
+//> wide.placed: Walk through a tree that is put somewhere else
+bool wide_nearest_placed(const struct wide *tree, const struct placement *place,
+                         ray *r, void *hit)
+{
+    struct query q = {.tree = tree, .place = place, .r = r, .hit = hit};
+    ray seen = placement_ray(place, r);
+    return ask(&q, &seen, place->margin, false);
+}
+
+bool wide_any_placed(const struct wide *tree, const struct placement *place,
+                     ray *r, void *hit)
+{
+    struct query q = {.tree = tree, .place = place, .r = r, .hit = hit};
+    ray seen = placement_ray(place, r);
+    return ask(&q, &seen, place->margin, true);
+}
+//< wide.placed

@@ -22,6 +22,7 @@
 
 #include "accel/leaf.h"
 #include "accel/nearest.h"
+#include "accel/placement.h"
 #include "base/box.h"
 #include "base/ray.h"
 
@@ -60,10 +61,11 @@ struct wide {
     void *memory;  /* that nodes and packs lie in */
 };
 
-/* What a tree is built over: primitives 0 .. count - 1, fewer than 2^30. Both
- * functions may be called by several threads at once. */
+/* What a tree is built over: count primitives, fewer than 2^30. Both functions
+ * may be called by several threads at once. */
 struct wide_source {
     uint32_t count;
+    const uint32_t *numbers; /* of the primitives; NULL: 0 .. count - 1 */
     const void *context;
     /* The corners of a primitive, or false if it is no triangle. NULL: none
      * of them is one. */
@@ -91,5 +93,13 @@ bool wide_nearest(const struct wide *tree, ray *r, leaf_test_fn *test,
                   const void *context, void *hit);
 bool wide_any(const struct wide *tree, ray *r, leaf_test_fn *test,
               const void *context, void *hit);
+
+/* The same for a tree over a mesh's triangles, numbered as the mesh does, that
+ * is put somewhere else. The ray, t and the hit's primitive are the
+ * world's. */
+bool wide_nearest_placed(const struct wide *tree, const struct placement *place,
+                         ray *r, void *hit);
+bool wide_any_placed(const struct wide *tree, const struct placement *place,
+                     ray *r, void *hit);
 
 #endif

@@ -25,8 +25,9 @@ static struct reference *make_references(const struct wide_source *source)
     struct reference *references = mem_alloc(source->count, sizeof *references);
 #pragma omp parallel for
     for (uint32_t i = 0; i < source->count; i++) {
-        aabb box = box_of(source, i);
-        references[i] = reference_make(&box, i);
+        uint32_t number = source->numbers != NULL ? source->numbers[i] : i;
+        aabb box = box_of(source, number);
+        references[i] = reference_make(&box, number);
     }
     return references;
 }

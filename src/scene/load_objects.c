@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/load_parts.h"
-#include "scene/obj_reader.h"
+#include "scene/models.h"
 
 /* First `transform`, then `translate`. */
 static struct transform load_placement(struct json_reader *j, const cJSON *node)
@@ -15,19 +15,34 @@ static struct transform load_placement(struct json_reader *j, const cJSON *node)
         t, json_vec3(j, json_get(node, "translate"), zero));
 }
 
-static void check_positions(struct json_reader *j, const cJSON *node,
-                            const struct mesh *m)
+/* Does every point of the box stay far within a float's range? */
+static bool stays_small(const aabb *box, const struct transform *t)
 {
-    for (uint32_t i = 0; i < m->vertex_count; i++) {
-        if (vec3_is_finite(m->positions[i]))
+    vec3 lower = vec3_abs(box->lower), upper = vec3_abs(box->upper);
+    vec3 most = aabb_greater(lower, upper);
+    float sum = 0.0f;
+    for (int i = 0; i < 3; i++)
+        sum += fabsf(t->m[i][0]) * most.x + fabsf(t->m[i][1]) * most.y +
+               fabsf(t->m[i][2]) * most.z + fabsf(t->m[i][3]);
+    return sum < 1e37f;
+}
+
+static void check_positions(struct json_reader *j, const cJSON *node,
+                            const struct model *m, const struct transform *t)
+{
+    if (stays_small(&m->box, t))
+        return;
+    for (uint32_t i = 0; i < m->mesh.vertex_count; i++) {
+        if (vec3_is_finite(transform_point(t, m->mesh.positions[i])))
             continue;
         json_fault(j, node, "the transform moves vertex %u out of range", i);
         return;
     }
 }
 
+/* An emitting mesh is always the object's own: light leaves it where it is. */
 static void load_mesh(struct json_reader *j, const cJSON *node,
-                      struct object *out)
+                      struct scene *scene, struct object *out)
 {
     static const char *const keys[] = {
         "type",          "path",  "transform", "translate",
@@ -40,11 +55,15 @@ static void load_mesh(struct json_reader *j, const cJSON *node,
         return;
     char *full = resolve_path(j, name);
     struct error fault = {""};
-    if (obj_read(full, &out->mesh, &fault)) {
-        mesh_transform(&out->mesh, &to_world);
-        check_positions(j, node, &out->mesh);
-    } else {
+    struct model *model = models_find(scene, full, &fault);
+    if (model == NULL) {
         json_fault(j, path, "%s", fault.text);
+    } else {
+        check_positions(j, node, model, &to_world);
+        if (json_get(node, "light") != NULL)
+            out->mesh = models_copy(model, &to_world);
+        else
+            models_show(model, &to_world, out);
     }
     mem_free(full);
 }
@@ -101,7 +120,7 @@ static void load_object(struct json_reader *j, const cJSON *materials,
     if (!json_fine(j))
         return;
     if (out->kind == OBJECT_MESH)
-        load_mesh(j, node, out);
+        load_mesh(j, node, scene, out);
     else if (out->kind == OBJECT_SPHERE)
         load_sphere(j, node, out);
     else
@@ -116,6 +135,7 @@ void load_objects(struct json_reader *j, const cJSON *materials,
         return;
     size_t count = (size_t)cJSON_GetArraySize(node);
     scene->objects = mem_alloc(count, sizeof *scene->objects);
+    scene->models = mem_alloc(count, sizeof *scene->models);
     for (const cJSON *item = node->child; item && json_fine(j);
          item = item->next)
         load_object(j, materials, item, scene,

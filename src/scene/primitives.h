@@ -15,14 +15,19 @@
  * *err filled, when there are too many. */
 bool primitives_count(struct scene *scene, struct error *err);
 
+/* The numbers of the primitives that a tree is built over: all, but of an
+ * object that shows a model only the first, which stands for the object. The
+ * caller owns them; NULL: there is no such object, and *count is all. */
+uint32_t *primitives_listed(const struct scene *scene, uint32_t *count);
+
 /* The object that a primitive belongs to. */
 uint32_t primitive_object(const struct scene *scene, uint32_t primitive);
 
-/* Its corners; false if it is no triangle. The pointer is to a struct scene:
- * these two are what wide_build asks. */
+/* Its corners; false if it is no triangle, or one of a model. The pointer is to
+ * a struct scene: these two are what wide_build asks. */
 bool primitive_corners(const void *scene, uint32_t primitive, vec3 corners[3]);
 
-/* The box of a primitive, a triangle or not. */
+/* The box of a primitive, a triangle or not; of a model's, the object's. */
 aabb primitive_box(const void *scene, uint32_t primitive);
 
 #endif

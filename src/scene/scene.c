@@ -2,15 +2,19 @@
 #include "scene/scene.h"
 
 #include "base/memory.h"
+#include "scene/models.h"
 #include "scene/primitives.h"
 
 /* Everything's box goes to *all. */
 static struct accel build_wide(const struct scene *scene, aabb *all)
 {
-    const struct wide_source source = {scene->primitive_count, scene,
-                                       primitive_corners, primitive_box};
+    struct wide_source source = {scene->primitive_count, NULL, scene,
+                                 primitive_corners, primitive_box};
+    uint32_t *listed = primitives_listed(scene, &source.count);
+    source.numbers = listed;
     struct accel accel = accel_build_wide(&source);
     *all = accel.wide.box;
+    mem_free(listed);
     return accel;
 }
 
@@ -58,6 +62,7 @@ bool scene_prepare(struct scene *scene, enum accel_kind kind, struct error *err)
     aabb all;
     if (!primitives_count(scene, err))
         return false;
+    models_prepare(scene, kind);
     scene->accel = kind == ACCEL_WIDE ? build_wide(scene, &all)
                                       : build_other(scene, kind, &all);
     scene->radius = bounding_radius(&all);
@@ -119,32 +124,34 @@ static bool test_any(const void *context, uint32_t first, uint32_t count,
     return false;
 }
 
-/* The wide tree asks about what is no triangle only, by its number, and counts
- * by itself. */
-static bool test_other(const void *context, uint32_t number, const ray *r,
-                       struct nearest *hit)
+/* The wide tree asks about what is no triangle of its own only, by its number,
+ * and counts by itself. */
+static bool test_other_nearest(const void *context, uint32_t number,
+                               uint32_t count, ray *r, void *out)
 {
     const struct scene *scene = context;
     const struct primitive p = {.number = number,
                                 .object = primitive_object(scene, number)};
-    *hit = (struct nearest){.primitive = number};
-    return test_primitive(scene, &p, r, hit);
-}
-
-static bool test_other_nearest(const void *context, uint32_t number,
-                               uint32_t count, ray *r, void *out)
-{
-    struct nearest hit;
+    const struct object *o = &scene->objects[p.object];
+    struct nearest hit = {.primitive = number};
     (void)count;
-    return test_other(context, number, r, &hit) && nearest_offer(out, &hit, r);
+    if (o->model != NULL)
+        return wide_nearest_placed(&o->model->tree, &o->place, r, out);
+    return test_primitive(scene, &p, r, &hit) && nearest_offer(out, &hit, r);
 }
 
 static bool test_other_any(const void *context, uint32_t number, uint32_t count,
                            ray *r, void *out)
 {
+    const struct scene *scene = context;
+    const struct primitive p = {.number = number,
+                                .object = primitive_object(scene, number)};
+    const struct object *o = &scene->objects[p.object];
     struct nearest hit;
     (void)count;
-    return test_other(context, number, r, &hit) &&
+    if (o->model != NULL)
+        return wide_any_placed(&o->model->tree, &o->place, r, out);
+    return test_primitive(scene, &p, r, &hit) &&
            hit.t <= ((const struct nearest *)out)->t;
 }
 
@@ -174,8 +181,9 @@ struct surface scene_surface(const struct scene *scene, const ray *r,
     if (o->kind == OBJECT_RECT)
         return rect_surface(&o->rect, r, hit->t);
     struct triangle_hit found = {hit->t, hit->b1, hit->b2};
-    return mesh_surface(&o->mesh,
-                        hit->primitive - scene->first_primitive[index], &found);
+    uint32_t triangle = hit->primitive - scene->first_primitive[index];
+    return o->model != NULL ? models_surface(o, triangle, &found)
+                            : mesh_surface(&o->mesh, triangle, &found);
 }
 
 bool scene_any(const struct scene *scene, const ray *r)
@@ -213,6 +221,7 @@ void scene_free(struct scene *scene)
         light_free(&scene->lights[i]);
     image_free(&scene->environment_image);
     light_table_free(&scene->light_table);
+    models_free(scene);
     mem_free(scene->objects);
     mem_free(scene->materials);
     mem_free(scene->textures);

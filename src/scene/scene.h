@@ -23,11 +23,24 @@
 
 enum object_kind { OBJECT_MESH, OBJECT_SPHERE, OBJECT_RECT };
 
+/* A mesh in a space of its own, that objects show: models.h. */
+struct model {
+    char *path; /* of its file */
+    struct mesh mesh;
+    aabb box;         /* of the mesh */
+    uint32_t shown;   /* the number of objects that do */
+    struct wide tree; /* over its triangles, from scene_prepare on */
+};
+
 /* material NULL: the object does not reflect (a light may be so). light < 0: it
  * does not emit; otherwise the index of its area light. */
 struct object {
     enum object_kind kind;
-    struct mesh mesh;     /* OBJECT_MESH, in world space */
+    struct mesh mesh;    /* OBJECT_MESH, in world space; or else, empty: */
+    struct model *model; /* a mesh in another space, NULL if there is none */
+    struct placement
+        place;            /* where it shows the model; to_world is set first */
+    aabb box;             /* and the box of that, from scene_prepare on */
     struct sphere sphere; /* OBJECT_SPHERE */
     struct rect rect;     /* OBJECT_RECT */
     const struct material *material;
@@ -50,6 +63,8 @@ struct scene {
     struct texture *textures;
     uint32_t texture_count;
     struct material *materials;
+    struct model *models; /* room for as many as there are objects */
+    uint32_t model_count;
     struct object *objects;
     uint32_t object_count;
     struct light *lights;

@@ -1,6 +1,8 @@
 /* mesh.c - see mesh.h. */
 #include "shapes/mesh.h"
 
+#include <string.h>
+
 #include "base/constants.h"
 #include "base/memory.h"
 
@@ -135,6 +137,25 @@ void mesh_transform(struct mesh *m, const struct transform *to_world)
         float length = vec3_length(n);
         m->normals[i] = length > 0.0f ? vec3_scale(n, 1.0f / length) : n;
     }
+}
+
+/* NULL if there is nothing to copy. */
+static void *copy(const void *items, size_t count, size_t size)
+{
+    if (items == NULL)
+        return NULL;
+    return memcpy(mem_alloc(count, size), items, count * size);
+}
+
+struct mesh mesh_copy(const struct mesh *m)
+{
+    struct mesh out = *m;
+    size_t vertices = m->vertex_count, corners = 3 * (size_t)m->triangle_count;
+    out.positions = copy(m->positions, vertices, sizeof *m->positions);
+    out.normals = copy(m->normals, vertices, sizeof *m->normals);
+    out.uvs = copy(m->uvs, vertices, sizeof *m->uvs);
+    out.indices = copy(m->indices, corners, sizeof *m->indices);
+    return out;
 }
 
 void mesh_free(struct mesh *m)

@@ -32,6 +32,9 @@ struct surface mesh_surface(const struct mesh *m, uint32_t triangle,
 /* Moves every vertex; normals by the inverse transpose. */
 void mesh_transform(struct mesh *m, const struct transform *to_world);
 
+/* A copy with arrays of its own. */
+struct mesh mesh_copy(const struct mesh *m);
+
 void mesh_free(struct mesh *m);
 
 #endif
