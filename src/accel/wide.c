@@ -29,20 +29,15 @@ struct waiting {
 enum { MOST_WAITING = WIDE_MAX_DEPTH * (WIDE - 1) };
 //< wide.query
 
-//> wide.node: Test eight boxes
-/* t_enter: where the beam enters each child's box, INFINITY where it misses
- * it. A missing child is missed: its near planes are at +infinity. */
-static inline void enter_children(const struct wide_node *restrict n,
-                                  const struct query *q,
-                                  float t_enter[restrict WIDE])
+//> wide.boxes: Test eight boxes
+/* t_enter: where the beam enters each box, INFINITY where it misses it. The
+ * planes that the beam comes to first are near. */
+static inline void enter_boxes(const struct query *q, const float *near_x,
+                               const float *near_y, const float *near_z,
+                               const float *far_x, const float *far_y,
+                               const float *far_z, float t_enter[restrict WIDE])
 {
     const struct beam *b = &q->beam;
-    const float *near_x = n->planes[b->near_plane[0]];
-    const float *near_y = n->planes[b->near_plane[1]];
-    const float *near_z = n->planes[b->near_plane[2]];
-    const float *far_x = n->planes[b->far_plane[0]];
-    const float *far_y = n->planes[b->far_plane[1]];
-    const float *far_z = n->planes[b->far_plane[2]];
     const float ix = b->inverse[0], iy = b->inverse[1], iz = b->inverse[2];
     const float ex = b->enter[0], ey = b->enter[1], ez = b->enter[2];
     const float lx = b->leave[0], ly = b->leave[1], lz = b->leave[2];
@@ -59,7 +54,17 @@ static inline void enter_children(const struct wide_node *restrict n,
         t_enter[i] = enter <= leave ? enter : INFINITY;
     }
 }
-//< wide.node
+
+/* A missing child is missed: its near planes are at +infinity. */
+static inline void enter_children(const struct wide_node *n,
+                                  const struct query *q, float t_enter[WIDE])
+{
+    const int *near = q->beam.near_plane, *far = q->beam.far_plane;
+    enter_boxes(q, n->planes[near[0]], n->planes[near[1]], n->planes[near[2]],
+                n->planes[far[0]], n->planes[far[1]], n->planes[far[2]],
+                t_enter);
+}
+//< wide.boxes
 
 //> wide.descend: Go to the nearest child, let the others wait
 /* The nearest stays in a register; the others are not worth sorting, since
@@ -160,18 +165,60 @@ static bool confirm(const struct query *q, const struct wide_pack *p, int lane,
     return nearest_offer(q->hit, &hit, q->r);
 }
 
-/* The primitives of a leaf that are no triangles, one by one. */
+static bool is_other(const struct wide_pack *p, int lane)
+{
+    return isnan(p->corner[0][0][lane]) && p->primitive[lane] != NO_PRIMITIVE;
+}
+
+static bool ask_other(const struct query *q, const struct wide_pack *p,
+                      int lane)
+{
+    return q->test(q->context, p->primitive[lane], 1, q->r, q->hit);
+}
+//< wide.confirm
+
+//> wide.others: Ask about what is no triangle
+/* Where the beam enters the boxes of a pack's other primitives. */
+static void enter_others(const struct query *q, const struct wide_pack *p,
+                         float t_enter[WIDE])
+{
+    const int *near = q->beam.near_plane, *far = q->beam.far_plane;
+    enter_boxes(q, p->corner[1 + near[0] % 2][0], p->corner[1 + near[1] % 2][1],
+                p->corner[1 + near[2] % 2][2], p->corner[1 + far[0] % 2][0],
+                p->corner[1 + far[1] % 2][1], p->corner[1 + far[2] % 2][2],
+                t_enter);
+    for (int i = 0; i < WIDE; i++)
+        if (!is_other(p, i))
+            t_enter[i] = INFINITY;
+}
+
+static int first_of(const float t_enter[WIDE])
+{
+    int first = 0;
+    for (int i = 1; i < WIDE; i++)
+        if (t_enter[i] < t_enter[first])
+            first = i;
+    return first;
+}
+
+/* From near to far: one of them may be a mesh of a million triangles. */
 static bool test_others(const struct query *q, const struct wide_pack *p,
                         bool any)
 {
+    float t_enter[WIDE];
     bool found = false;
-    for (int i = 0; i < WIDE && !(found && any); i++)
-        if (isnan(p->corner[0][0][i]) && p->primitive[i] != NO_PRIMITIVE &&
-            q->test(q->context, p->primitive[i], 1, q->r, q->hit))
-            found = true;
+    enter_others(q, p, t_enter);
+    for (int i = first_of(t_enter);
+         !(found && any) && t_enter[i] < INFINITY && t_enter[i] <= q->r->t_max;
+         i = first_of(t_enter)) {
+        found = ask_other(q, p, i) || found;
+        t_enter[i] = INFINITY;
+    }
     return found;
 }
+//< wide.others
 
+//> wide.leaf: Test a leaf
 static inline bool test_leaf(const struct query *q, uint32_t leaf, bool any)
 {
     const struct wide_pack *p = &q->tree->packs[leaf & WIDE_INDEX];
@@ -187,7 +234,7 @@ static inline bool test_leaf(const struct query *q, uint32_t leaf, bool any)
     }
     return leaf & WIDE_OTHERS ? test_others(q, p, any) || found : found;
 }
-//< wide.confirm
+//< wide.leaf
 
 static inline void count(uint32_t nodes, uint32_t packs)
 {
@@ -235,10 +282,8 @@ static bool ask_all(const struct query *q, bool any)
     for (uint32_t k = 0; k < q->tree->pack_count; k++) {
         const struct wide_pack *p = &q->tree->packs[k];
         for (int i = 0; i < WIDE && !(found && any); i++)
-            if (!isnan(p->corner[0][0][i]) && confirm(q, p, i, any))
+            if (is_other(p, i) ? ask_other(q, p, i) : confirm(q, p, i, any))
                 found = true;
-        if (!(found && any) && test_others(q, p, any))
-            found = true;
     }
     count(0, q->tree->pack_count);
     return found;

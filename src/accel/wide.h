@@ -44,9 +44,9 @@ struct wide_node {
     uint32_t child[WIDE];
 };
 
-/* corner[i][axis][lane] of the triangle primitive[lane]. The corners of a
- * primitive that is none are NaN, and so are those of an empty lane, whose
- * primitive is NO_PRIMITIVE. */
+/* corner[i][axis][lane] of the triangle primitive[lane]. The first corner of a
+ * primitive that is none is NaN; the other two are the lower and the upper one
+ * of its box. An empty lane is all NaN; its primitive is NO_PRIMITIVE. */
 struct wide_pack {
     float corner[3][3][WIDE];
     uint32_t primitive[WIDE];

@@ -67,21 +67,29 @@ struct writer {
     struct wide_pack *packs;
 };
 
+static void write_corner(struct wide_pack *p, int corner, int lane, vec3 at)
+{
+    p->corner[corner][0][lane] = at.x;
+    p->corner[corner][1][lane] = at.y;
+    p->corner[corner][2][lane] = at.z;
+}
+
 /* Returns whether the primitive is a triangle. */
 static bool write_lane(const struct wide_source *source, uint32_t primitive,
                        struct wide_pack *p, int lane)
 {
     vec3 corners[3];
     p->primitive[lane] = primitive;
-    if (source->corners == NULL ||
-        !source->corners(source->context, primitive, corners))
-        return false;
-    for (int i = 0; i < 3; i++) {
-        p->corner[i][0][lane] = corners[i].x;
-        p->corner[i][1][lane] = corners[i].y;
-        p->corner[i][2][lane] = corners[i].z;
+    if (source->corners != NULL &&
+        source->corners(source->context, primitive, corners)) {
+        for (int i = 0; i < 3; i++)
+            write_corner(p, i, lane, corners[i]);
+        return true;
     }
-    return true;
+    aabb box = source->box(source->context, primitive);
+    write_corner(p, 1, lane, box.lower);
+    write_corner(p, 2, lane, box.upper);
+    return false;
 }
 
 static void write_nothing(struct wide_pack *p)
