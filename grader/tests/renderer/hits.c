@@ -1,14 +1,12 @@
 /* hits.c - do all accelerators find the same hits, and does a mesh leak?
  *
- *     hits MESH.obj INSIDE.txt RAYS SEED LINEAR_RAYS
+ *     hits MESH.obj INSIDE.txt RAYS SEED LINEAR_RAYS PLACES
  *
- * Casts so many rays at the mesh through the BVH, the wide tree and, if it is
+ * Casts so many rays at the mesh (hit_world.h) through the BVH, the wide tree and, if it is
  * there, Embree, the first LINEAR_RAYS of them also by testing everything, and prints counts
- * as one JSON object. Four kinds of rays take turns: between random points,
- * from a random point to a vertex, from a random point to a point of an edge,
- * and to a random point. INSIDE.txt (perhaps empty) lists points, x y z,
- * inside a closed mesh; if there are any, every second ray starts at one of
- * them, and as a closed mesh leaks no ray, each of those must hit.
+ * as one JSON object. INSIDE.txt (perhaps empty) lists points, x y z, inside a
+ * closed mesh; as such a mesh leaks no ray, each ray that starts there must
+ * hit.
  *
  * Two answers agree when both miss or both hit the same triangle at a t of the
  * same bits. A few of the rays that disagree are told on standard error. */
@@ -17,18 +15,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
-#include "sampling/random.h"
-#include "scene/obj_reader.h"
-#include "scene/scene.h"
+#include "hit_world.h"
 
 enum { MOST_TOLD = 5 };
 
 struct world {
-    struct mesh mesh;
-    aabb box;
-    vec3 *inside;
-    size_t inside_count;
+    struct hit_world made;
     struct scene bvh, wide, linear, embree;
     bool has_embree;
 };
@@ -39,118 +31,17 @@ struct counts {
     uint64_t from_inside, leaks;
 };
 
-/* Setting up -------------------------------------------------------------- */
-
-static void stop(const char *path, const char *what)
+static void make_world(struct world *w, const char *mesh, const char *inside,
+                       uint32_t places)
 {
-    fprintf(stderr, "hits: %s: %s\n", path, what);
-    exit(2);
-}
-
-static void read_inside(struct world *w, const char *path)
-{
-    vec3 p;
-    FILE *file = fopen(path, "r");
-    if (file == NULL)
-        stop(path, "cannot be opened");
-    while (fscanf(file, "%f %f %f", &p.x, &p.y, &p.z) == 3) {
-        w->inside =
-            mem_resize(w->inside, w->inside_count + 1, sizeof *w->inside);
-        w->inside[w->inside_count++] = p;
-    }
-    fclose(file);
-}
-
-static struct scene make_scene(struct world *w, enum accel_kind kind)
-{
-    struct scene scene;
-    struct error err = {""};
-    memset(&scene, 0, sizeof scene);
-    scene.environment = -1;
-    scene.objects = mem_alloc(1, sizeof *scene.objects);
-    scene.objects->kind = OBJECT_MESH;
-    scene.objects->mesh = w->mesh; /* stays ours */
-    scene.objects->light = -1;
-    scene.object_count = 1;
-    if (!scene_prepare(&scene, kind, &err))
-        stop("scene", err.text);
-    return scene;
-}
-
-static void make_world(struct world *w, const char *mesh, const char *inside)
-{
-    struct error err = {""};
     memset(w, 0, sizeof *w);
-    if (!obj_read(mesh, &w->mesh, &err))
-        stop(mesh, err.text);
-    w->box = aabb_empty();
-    for (uint32_t i = 0; i < w->mesh.vertex_count; i++)
-        w->box = aabb_include(w->box, w->mesh.positions[i]);
-    read_inside(w, inside);
-    w->bvh = make_scene(w, ACCEL_BVH);
-    w->wide = make_scene(w, ACCEL_WIDE);
-    w->linear = make_scene(w, ACCEL_LINEAR);
+    w->made = hit_world_read(mesh, inside, places);
+    w->bvh = hit_world_scene(&w->made, ACCEL_BVH);
+    w->wide = hit_world_scene(&w->made, ACCEL_WIDE);
+    w->linear = hit_world_scene(&w->made, ACCEL_LINEAR);
     w->has_embree = accel_available(ACCEL_EMBREE);
     if (w->has_embree)
-        w->embree = make_scene(w, ACCEL_EMBREE);
-}
-
-/* Rays -------------------------------------------------------------------- */
-
-/* In the mesh's box, made larger about its centre. */
-static vec3 random_point(const struct world *w, uint64_t key, uint32_t first,
-                         float larger)
-{
-    vec3 size = vec3_sub(w->box.upper, w->box.lower);
-    vec3 at = vec3_make(random_float(key, first) - 0.5f,
-                        random_float(key, first + 1) - 0.5f,
-                        random_float(key, first + 2) - 0.5f);
-    vec3 centre = aabb_centroid(w->box);
-    return vec3_make(centre.x + larger * size.x * at.x,
-                     centre.y + larger * size.y * at.y,
-                     centre.z + larger * size.z * at.z);
-}
-
-/* Where the ray is aimed at: the four kinds. */
-static vec3 target(const struct world *w, uint64_t key, uint64_t kind)
-{
-    uint32_t triangle = random_bits(key, 8) % w->mesh.triangle_count;
-    uint32_t corner = random_bits(key, 9) % 3;
-    vec3 p[3];
-    mesh_corners(&w->mesh, triangle, p);
-    vec3 a = p[corner], b = p[(corner + 1) % 3];
-    if (kind == 1)
-        return a;
-    if (kind == 2)
-        return vec3_step(a, random_float(key, 10), vec3_sub(b, a));
-    return random_point(w, key, 12, kind == 3 ? 1.0f : 1.5f);
-}
-
-static bool starts_inside(const struct world *w, uint64_t index)
-{
-    return w->inside_count > 0 && index % 2 == 1;
-}
-
-/* As if it left a surface that is known exactly, so that it can be asked about
- * in all ways. */
-static struct surface make_start(vec3 from)
-{
-    struct surface s;
-    memset(&s, 0, sizeof s);
-    s.position = from;
-    return s;
-}
-
-/* Returns its direction. */
-static vec3 make_ray(const struct world *w, uint64_t seed, uint64_t index,
-                     struct surface *start)
-{
-    uint64_t key = random_key(seed, index, 0);
-    vec3 from = random_point(w, key, 0, 3.0f);
-    if (starts_inside(w, index))
-        from = w->inside[random_bits(key, 4) % w->inside_count];
-    *start = make_start(from);
-    return vec3_sub(target(w, key, index / 2 % 4), from);
+        w->embree = hit_world_scene(&w->made, ACCEL_EMBREE);
 }
 
 /* Comparing --------------------------------------------------------------- */
@@ -205,7 +96,7 @@ static void cast(const struct world *w, uint64_t seed, uint64_t index,
                  bool linear_too, struct counts *c)
 {
     struct surface start;
-    vec3 direction = make_ray(w, seed, index, &start);
+    vec3 direction = hit_world_ray(&w->made, seed, index, &start);
     ray r = surface_ray(&start, direction, INFINITY);
     struct scene_hit hit = nearest(&w->bvh, &r);
     uint64_t none = 0;
@@ -218,7 +109,7 @@ static void cast(const struct world *w, uint64_t seed, uint64_t index,
     if (w->has_embree)
         compare(&w->embree, "embree", &start, &r, index, &hit,
                 &c->embree_differs, c);
-    if (!starts_inside(w, index))
+    if (!hit_world_starts_inside(&w->made, index))
         return;
     c->from_inside++;
     if (hit.t == INFINITY) {
@@ -227,27 +118,40 @@ static void cast(const struct world *w, uint64_t seed, uint64_t index,
     }
 }
 
+/* The objects that show a model. */
+static uint32_t placed(const struct scene *scene)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < scene->object_count; i++)
+        count += scene->objects[i].model != NULL;
+    return count;
+}
+
 static void print(const struct world *w, uint64_t rays, uint64_t linear_rays,
                   const struct counts *c)
 {
     printf("{\"triangles\": %u, \"rays\": %" PRIu64
-           ", \"linear_rays\": %" PRIu64 ", \"embree\": %s, \"hits\": %" PRIu64
-           ", \"wide_differs\": %" PRIu64 ", \"linear_differs\": %" PRIu64
-           ", \"embree_differs\": %" PRIu64 ", \"any_differs\": %" PRIu64
-           ", \"from_inside\": %" PRIu64 ", \"leaks\": %" PRIu64 "}\n",
-           (unsigned)w->mesh.triangle_count, rays, linear_rays,
-           w->has_embree ? "true" : "false", c->hits, c->wide_differs,
-           c->linear_differs, c->embree_differs, c->any_differs, c->from_inside,
-           c->leaks);
+           ", \"placed\": %u, \"linear_rays\": %" PRIu64
+           ", \"embree\": %s, \"hits\": %" PRIu64 ", \"wide_differs\": %" PRIu64
+           ", \"linear_differs\": %" PRIu64 ", \"embree_differs\": %" PRIu64
+           ", \"any_differs\": %" PRIu64 ", \"from_inside\": %" PRIu64
+           ", \"leaks\": %" PRIu64 "}\n",
+           (unsigned)w->wide.primitive_count, rays, (unsigned)placed(&w->wide),
+           linear_rays, w->has_embree ? "true" : "false", c->hits,
+           c->wide_differs, c->linear_differs, c->embree_differs,
+           c->any_differs, c->from_inside, c->leaks);
 }
 
 int main(int argc, char *argv[])
 {
     struct world w;
     struct counts c = {0};
-    if (argc != 6)
-        stop("usage", "hits MESH.obj INSIDE.txt RAYS SEED LINEAR_RAYS");
-    make_world(&w, argv[1], argv[2]);
+    if (argc > 1 && strcmp(argv[1], "leaks") == 0)
+        return leaks(argc - 1, argv + 1);
+    if (argc != 7)
+        hit_stop("usage",
+                 "hits MESH.obj INSIDE.txt RAYS SEED LINEAR_RAYS PLACES");
+    make_world(&w, argv[1], argv[2], (uint32_t)strtoul(argv[6], NULL, 10));
     uint64_t rays = strtoull(argv[3], NULL, 10);
     uint64_t seed = strtoull(argv[4], NULL, 10);
     uint64_t linear_rays = strtoull(argv[5], NULL, 10);
