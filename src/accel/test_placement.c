@@ -49,7 +49,7 @@ static bool random_map(uint64_t key, float uneven, float step,
     return transform_from_rows(rows, out);
 }
 
-/* Exactly, or nearly so ---------------------------------------------------- */
+/* Exactly, or nearly so --------------------------------------------------- */
 
 /* Solves A x = b by Cramer's rule. */
 static void solve(const struct transform *t, const long double b[3],
@@ -96,7 +96,7 @@ static long double farthest(const long double a[3], vec3 b)
     return most;
 }
 
-/* The margin ---------------------------------------------------------------- */
+/* The margin --------------------------------------------------------------- */
 
 /* Where the ray aims at a corner that was moved to the world: how far is the
  * mesh's corner from the moved ray, in units of what the margin allows? */
@@ -162,7 +162,7 @@ static void what_beams_cannot_serve_is_refused(void)
     TEST_ASSERT_TRUE(placement_make(&fine, 0, &box, &p));
 }
 
-/* Hits ---------------------------------------------------------------------- */
+/* Hits --------------------------------------------------------------------- */
 
 static vec3 positions[3 * TRIANGLES], moved_positions[3 * TRIANGLES];
 static uint32_t indices[3 * TRIANGLES], moved_indices[3 * TRIANGLES];

@@ -24,6 +24,7 @@ from bench_goals import with_goals
 from bench_group_build import build_rows
 from bench_group_grader import grader_rows
 from bench_group_images import image_rows, thread_rows
+from bench_group_large import large_rows
 from bench_group_rays import ray_rows, work_rows
 from bench_group_sampling import sampling_rows
 from bench_group_start import loading_rows, start_rows
@@ -46,6 +47,7 @@ GROUPS: Mapping[str, Callable[[Effort], Iterable[Row]]] = {
     "textures": texture_rows,
     "threads": thread_rows,
     "loading": loading_rows,
+    "large": large_rows,
     "start": start_rows,
     "grader": grader_rows,
 }

@@ -21,6 +21,7 @@ class Effort:
     samplers: tuple[str, ...]  # Mitsuba's at its best: the one that is best for it
     long_rows: bool  # what takes minutes and has no goal
     obj_triangles: int
+    large_triangles: int  # of a mesh whose memory is measured; 0: it is left out
     modules: int  # that the grader judges
     may_install: bool  # Mitsuba, of 500 MB
 
@@ -38,6 +39,7 @@ FULL = Effort(
     samplers=("independent", "multijitter"),
     long_rows=True,
     obj_triangles=1_000_000,
+    large_triangles=10_000_000,
     modules=20,
     may_install=True,
 )
@@ -55,6 +57,7 @@ QUICK = Effort(
     samplers=("multijitter",),
     long_rows=False,
     obj_triangles=1_000_000,
+    large_triangles=0,
     modules=1,
     may_install=False,
 )
@@ -72,6 +75,7 @@ TINY = Effort(
     samplers=("independent",),
     long_rows=False,
     obj_triangles=2_000,
+    large_triangles=0,
     modules=1,
     may_install=False,
 )

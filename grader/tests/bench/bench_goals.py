@@ -55,6 +55,8 @@ TARGETS = (
     Target(Goal(5, 2, at_least=False, of="figure"), "start", "first picture"),
     Target(Goal(10, 4, at_least=False, of="figure"), "start", "clean build"),
     Target(Goal(2, at_least=False, of="figure"), "loading", "obj"),
+    Target(Goal(3, at_least=False, of="figure"), "large", "one mesh"),
+    Target(Goal(300, at_least=False, of="figure"), "large", "instances"),
 )
 
 

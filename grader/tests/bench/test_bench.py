@@ -165,6 +165,8 @@ def test_every_goal_has_rows(monkeypatch: pytest.MonkeyPatch) -> None:
             ("start", "first picture", ""),
             ("start", "clean build", ""),
             ("loading", "obj", ""),
+            ("large", "one mesh", ""),
+            ("large", "instances", ""),
         )
     )
     for target in TARGETS:

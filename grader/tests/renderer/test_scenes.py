@@ -60,6 +60,12 @@ def test_scene_renders(scene: Path, tmp_path: Path) -> None:
     assert 0.01 < pixels.mean() < 2.0
 
 
+def test_the_forest_is_what_its_script_writes() -> None:
+    script = [sys.executable, "-B", SCENES / "forest.py"]
+    done = subprocess.run(script, check=True, capture_output=True, text=True)
+    assert done.stdout == (SCENES / "forest.json").read_text(encoding="utf-8")
+
+
 def test_an_unknown_key_is_not_valid() -> None:
     scene = read_scene(SCENES / "knot.json")
     scene["camera"]["fieldofview"] = 40
