@@ -20,6 +20,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
+import forest
 import terrain
 from generated import Maker, command
 from image_files import png
@@ -444,15 +445,34 @@ def terrain_colors() -> Iterator[bytes]:
     return png(list(terrain.color_rows()))
 
 
+def forest_tree(name: str) -> Iterator[bytes]:
+    """One of the forest's trees: see forest.py."""
+    return (line.encode("ascii") for line in forest.tree_lines(forest.TREES[name]))
+
+
+def forest_leaves(name: str) -> Iterator[bytes]:
+    """The colours of a tree."""
+    return png(forest.palette_rows(name))
+
+
+def forest_ground() -> Iterator[bytes]:
+    """What the trees stand on."""
+    return (line.encode("ascii") for line in forest.ground_lines())
+
+
 FILES: dict[str, Maker] = {
     "terrain.obj": terrain_mesh,
     "terrain.png": terrain_colors,
+    "forest-ground.obj": forest_ground,
+    **{name: partial(forest_tree, name) for name in forest.TREES},
+    **{name: partial(forest_leaves, name) for name in forest.PALETTES},
     **{name: partial(obj_file, build) for name, build in MESHES.items()},
 }
 
 HERE = Path(__file__).parent
 SOURCES = [
-    HERE / f"{name}.py" for name in ("make_meshes", "generated", "image_files", "noise", "terrain")
+    HERE / f"{name}.py"
+    for name in ("make_meshes", "forest", "generated", "image_files", "noise", "terrain")
 ]
 
 if __name__ == "__main__":
