@@ -32,8 +32,8 @@ static void make_guide(struct distribution_1d *d)
     d->parts = 1;
     while (d->parts < d->count && d->parts < UINT32_C(1) << 24)
         d->parts *= 2;
-    d->guide = mem_alloc((size_t)d->parts + 1, sizeof *d->guide);
-    for (uint32_t i = 0; i <= d->parts; i++) {
+    d->guide = mem_alloc(d->parts, sizeof *d->guide);
+    for (uint32_t i = 0; i < d->parts; i++) {
         while (cell + 1 < d->count && d->cdf[cell + 1] <= (double)i / d->parts)
             cell++;
         d->guide[i] = cell;
@@ -64,16 +64,10 @@ struct distribution_1d distribution_1d_make(const float weights[],
 static uint32_t find_cell(const struct distribution_1d *d, float random)
 {
     float inside = float_min(float_max(random, 0.0f), ONE_MINUS_EPSILON);
-    uint32_t part = (uint32_t)(inside * (float)d->parts);
-    uint32_t first = d->guide[part], beyond = d->guide[part + 1] + 1;
-    while (beyond - first > 1) {
-        uint32_t middle = first + (beyond - first) / 2;
-        if (d->cdf[middle] <= (double)random)
-            first = middle;
-        else
-            beyond = middle;
-    }
-    return first;
+    uint32_t cell = d->guide[(uint32_t)(inside * (float)d->parts)];
+    while (d->cdf[cell + 1] <= (double)inside)
+        cell++;
+    return cell;
 }
 
 uint32_t distribution_1d_sample(const struct distribution_1d *d, float random,

@@ -14,16 +14,16 @@
  * distribution owns its tables.
  *
  * A number is looked up in guide first, which has cut the range into `parts` of
- * the same length and says in which cell each begins; so the search goes on
- * between two cells that are mostly neighbours, however long the table: H. Chen
- * and Y. Asau, "On Generating Random Variates from an Empirical Distribution",
- * AIIE Transactions 6(2), 1974. */
+ * the same length and says in which cell each begins. From there the search
+ * goes on cell by cell, on average by no more than count / parts steps, however
+ * long the table: H. Chen and Y. Asau, "On Generating Random Variates from an
+ * Empirical Distribution", AIIE Transactions 6(2), 1974. */
 struct distribution_1d {
     uint32_t count;
     double *cdf;     /* count + 1 values from 0 to 1 */
     double total;    /* sum of the weights */
     uint32_t parts;  /* a power of two: cutting by it does not round */
-    uint32_t *guide; /* parts + 1 cells */
+    uint32_t *guide; /* parts cells */
 };
 
 /* From weights, none below 0; if all are 0 every cell is as likely. Release
