@@ -9,7 +9,7 @@ bool tracer_hit(const struct tracer *t, const ray *r,
         path_log_miss(t->log);
         return false;
     }
-    out->surface = scene_surface(t->scene, r, &hit, &out->object);
+    scene_surface(t->scene, r, &hit, &out->object, &out->surface);
     surface_footprint(&out->surface, r, d);
     out->outgoing = vec3_negate(vec3_normalize(r->direction));
     out->t = hit.t;

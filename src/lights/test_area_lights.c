@@ -109,7 +109,8 @@ static double mesh_density(const struct view *view, const ray *r)
         mesh_corners(m, i, p);
         if (!triangle_intersect(p, r, &hit))
             continue;
-        struct surface s = mesh_surface(m, i, &hit);
+        struct surface s;
+        mesh_surface(m, i, &hit, &s);
         sum += light_pdf(view->light, view->point, r->direction, s.position,
                          s.geometric_normal);
     }
@@ -127,10 +128,10 @@ static double seen_density(const void *context, vec3 direction)
     if (light->kind == LIGHT_MESH)
         return mesh_density(view, &r);
     if (light->kind == LIGHT_RECT && rect_intersect(light->rect, &r, &t))
-        s = rect_surface(light->rect, &r, t);
+        rect_surface(light->rect, &r, t, &s);
     else if (light->kind == LIGHT_SPHERE &&
              sphere_intersect(light->sphere, &r, &t))
-        s = sphere_surface(light->sphere, &r, t);
+        sphere_surface(light->sphere, &r, t, &s);
     else
         return 0.0;
     return light_pdf(light, view->point, direction, s.position,

@@ -75,10 +75,14 @@ static struct surface meet(const struct setting *c, const ray *r)
         struct triangle_hit hit;
         mesh_corners(c->mesh, 0, corners);
         TEST_ASSERT_TRUE(triangle_intersect(corners, r, &hit));
-        return mesh_surface(c->mesh, 0, &hit);
+        struct surface s;
+        mesh_surface(c->mesh, 0, &hit, &s);
+        return s;
     }
     TEST_ASSERT_TRUE(sphere_intersect(&c->sphere, r, &t));
-    return sphere_surface(&c->sphere, r, t);
+    struct surface s;
+    sphere_surface(&c->sphere, r, t, &s);
+    return s;
 }
 
 /* The ray after all bounces; d, if given, is carried along. */

@@ -135,8 +135,8 @@ void models_prepare(struct scene *scene, enum accel_kind kind)
 /* Shading ----------------------------------------------------------------- */
 
 /* One triangle of the mesh, moved as the whole mesh would be. */
-struct surface models_surface(const struct object *object, uint32_t triangle,
-                              const struct triangle_hit *hit)
+void models_surface(const struct object *object, uint32_t triangle,
+                    const struct triangle_hit *hit, struct surface *out)
 {
     const struct mesh *m = &object->model->mesh;
     const uint32_t *index = &m->indices[3 * (size_t)triangle];
@@ -154,7 +154,7 @@ struct surface models_surface(const struct object *object, uint32_t triangle,
             uvs[i] = m->uvs[index[i]];
     }
     mesh_transform(&one, &object->place.to_world);
-    return mesh_surface(&one, 0, hit);
+    mesh_surface(&one, 0, hit, out);
 }
 
 void models_free(struct scene *scene)

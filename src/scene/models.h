@@ -33,8 +33,8 @@ struct mesh models_copy(const struct model *model,
 void models_prepare(struct scene *scene, enum accel_kind kind);
 
 /* scene_surface of an object that shows a model. */
-struct surface models_surface(const struct object *object, uint32_t triangle,
-                              const struct triangle_hit *hit);
+void models_surface(const struct object *object, uint32_t triangle,
+                    const struct triangle_hit *hit, struct surface *out);
 
 void models_free(struct scene *scene);
 

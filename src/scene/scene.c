@@ -169,21 +169,35 @@ bool scene_nearest(const struct scene *scene, const ray *r,
     return true;
 }
 
-struct surface scene_surface(const struct scene *scene, const ray *r,
-                             const struct scene_hit *hit,
-                             const struct object **object)
+static void triangle_surface(const struct object *o, uint32_t triangle,
+                             const struct scene_hit *hit, struct surface *out)
+{
+    const struct triangle_hit found = {hit->t, hit->b1, hit->b2};
+    if (o->model != NULL)
+        models_surface(o, triangle, &found, out);
+    else
+        mesh_surface(&o->mesh, triangle, &found, out);
+}
+
+void scene_surface(const struct scene *scene, const ray *r,
+                   const struct scene_hit *hit, const struct object **object,
+                   struct surface *out)
 {
     uint32_t index = primitive_object(scene, hit->primitive);
     const struct object *o = &scene->objects[index];
     *object = o;
-    if (o->kind == OBJECT_SPHERE)
-        return sphere_surface(&o->sphere, r, hit->t);
-    if (o->kind == OBJECT_RECT)
-        return rect_surface(&o->rect, r, hit->t);
-    struct triangle_hit found = {hit->t, hit->b1, hit->b2};
-    uint32_t triangle = hit->primitive - scene->first_primitive[index];
-    return o->model != NULL ? models_surface(o, triangle, &found)
-                            : mesh_surface(&o->mesh, triangle, &found);
+    switch (o->kind) {
+    case OBJECT_SPHERE:
+        sphere_surface(&o->sphere, r, hit->t, out);
+        break;
+    case OBJECT_RECT:
+        rect_surface(&o->rect, r, hit->t, out);
+        break;
+    case OBJECT_MESH:
+        triangle_surface(o, hit->primitive - scene->first_primitive[index], hit,
+                         out);
+        break;
+    }
 }
 
 bool scene_any(const struct scene *scene, const ray *r)

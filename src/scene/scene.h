@@ -103,9 +103,9 @@ bool scene_nearest(const struct scene *scene, const ray *r,
 bool scene_any(const struct scene *scene, const ray *r);
 
 /* The surface at a hit of this ray, and the object that it belongs to. */
-struct surface scene_surface(const struct scene *scene, const ray *r,
-                             const struct scene_hit *hit,
-                             const struct object **object);
+void scene_surface(const struct scene *scene, const ray *r,
+                   const struct scene_hit *hit, const struct object **object,
+                   struct surface *out);
 
 /* Is anything in this direction, however far? The query starts off the
  * surface. */

@@ -190,7 +190,8 @@ static void the_nearest_object_is_hit_with_its_material(void)
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 6, hit.t);
     const struct object *o = NULL;
     ray r = ray_make(vec3_make(0, 0, 10), vec3_make(0, 0, -1), 0, INFINITY);
-    struct surface s = scene_surface(&scene, &r, &hit, &o);
+    struct surface s;
+    scene_surface(&scene, &r, &hit, &o, &s);
     TEST_ASSERT_EQUAL_PTR(scene.objects + 1, o);
     TEST_ASSERT_EQUAL_PTR(scene.materials, o->material);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 4, s.position.z);
@@ -217,7 +218,8 @@ static bool shadowed(float x, vec3 light)
     const struct object *o;
     ray r =
         ray_make(vec3_make(x, 0.25f, 0), vec3_make(0, -0.25f, 0), 0, INFINITY);
-    struct surface s = scene_surface(&scene, &r, &hit, &o);
+    struct surface s;
+    scene_surface(&scene, &r, &hit, &o, &s);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0, s.position.y);
     return scene_segment_blocked(&scene, &s, light);
 }

@@ -94,24 +94,24 @@ static vec3 unit_normal(const vec3 p[3])
     return vec3_make((float)(k * n[0]), (float)(k * n[1]), (float)(k * n[2]));
 }
 
-struct surface mesh_surface(const struct mesh *m, uint32_t triangle,
-                            const struct triangle_hit *hit)
+void mesh_surface(const struct mesh *m, uint32_t triangle,
+                  const struct triangle_hit *hit, struct surface *out)
 {
-    struct surface out = {0};
+    static const struct surface nothing;
     vec3 p[3];
     vec2 uv[3];
     const float b[3] = {1.0f - hit->b1 - hit->b2, hit->b1, hit->b2};
+    *out = nothing;
     mesh_corners(m, triangle, p);
     mesh_uvs(m, triangle, uv);
-    out.position = blend(p, b);
-    out.position_error = blend_error(p, b);
-    out.geometric_normal = unit_normal(p);
-    out.shading_normal = smooth_normal(m, triangle, b, out.geometric_normal);
-    out.uv = vec2_make(b[0] * uv[0].x + b[1] * uv[1].x + b[2] * uv[2].x,
-                       b[0] * uv[0].y + b[1] * uv[1].y + b[2] * uv[2].y);
-    position_differentials(p, uv, &out);
-    normal_differentials(m, triangle, uv, b, &out);
-    return out;
+    out->position = blend(p, b);
+    out->position_error = blend_error(p, b);
+    out->geometric_normal = unit_normal(p);
+    out->shading_normal = smooth_normal(m, triangle, b, out->geometric_normal);
+    out->uv = vec2_make(b[0] * uv[0].x + b[1] * uv[1].x + b[2] * uv[2].x,
+                        b[0] * uv[0].y + b[1] * uv[1].y + b[2] * uv[2].y);
+    position_differentials(p, uv, out);
+    normal_differentials(m, triangle, uv, b, out);
 }
 
 /* A mirror turns every winding round; turn it back, so that the geometric

@@ -26,8 +26,8 @@ void mesh_corners(const struct mesh *m, uint32_t triangle, vec3 corners[3]);
 /* The surface at a hit. Without texture coordinates, uv is the pair of
  * barycentric coordinates (b1, b2). Vertex normals are interpolated and turned
  * to the side of the geometric normal, which follows the winding. */
-struct surface mesh_surface(const struct mesh *m, uint32_t triangle,
-                            const struct triangle_hit *hit);
+void mesh_surface(const struct mesh *m, uint32_t triangle,
+                  const struct triangle_hit *hit, struct surface *out);
 
 /* Moves every vertex; normals by the inverse transpose. */
 void mesh_transform(struct mesh *m, const struct transform *to_world);

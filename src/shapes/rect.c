@@ -54,19 +54,20 @@ static vec3 position_error(const struct rect *s, vec2 place)
     return vec3_scale(size, rounding_bound(5));
 }
 
-struct surface rect_surface(const struct rect *s, const ray *r, float t)
+void rect_surface(const struct rect *s, const ray *r, float t,
+                  struct surface *out)
 {
-    struct surface out = {0};
+    static const struct surface nothing;
     vec2 place = plane_coordinates(s, ray_at(r, t));
-    out.position =
+    *out = nothing;
+    out->position =
         vec3_step(vec3_step(s->center, place.x, s->side_x), place.y, s->side_y);
-    out.position_error = position_error(s, place);
-    out.geometric_normal = s->normal;
-    out.shading_normal = s->normal;
-    out.uv = vec2_make(place.x + 0.5f, 0.5f - place.y);
-    out.dp_du = s->side_x;
-    out.dp_dv = vec3_negate(s->side_y);
-    return out;
+    out->position_error = position_error(s, place);
+    out->geometric_normal = s->normal;
+    out->shading_normal = s->normal;
+    out->uv = vec2_make(place.x + 0.5f, 0.5f - place.y);
+    out->dp_du = s->side_x;
+    out->dp_dv = vec3_negate(s->side_y);
 }
 
 aabb rect_bounds(const struct rect *s)

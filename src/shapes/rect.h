@@ -27,7 +27,8 @@ bool rect_intersect(const struct rect *s, const ray *r, float *t);
 
 /* The surface at a hit. u runs along +x from 0 to 1, v along -y: v = 0 is the
  * edge at y = +1/2, so that an image stands upright. */
-struct surface rect_surface(const struct rect *s, const ray *r, float t);
+void rect_surface(const struct rect *s, const ray *r, float t,
+                  struct surface *out);
 
 aabb rect_bounds(const struct rect *s);
 

@@ -49,21 +49,22 @@ static void sphere_differentials(const struct sphere *s, vec3 n,
     out->dn_dv = vec3_scale(out->dp_dv, 1.0f / s->radius);
 }
 
-struct surface sphere_surface(const struct sphere *s, const ray *r, float t)
+void sphere_surface(const struct sphere *s, const ray *r, float t,
+                    struct surface *out)
 {
-    struct surface out = {0};
+    static const struct surface nothing;
     vec3 n = vec3_normalize(vec3_sub(ray_at(r, t), s->center));
     float theta = acosf(float_max(-1.0f, float_min(1.0f, n.z)));
-    out.position = vec3_step(s->center, s->radius, n);
+    *out = nothing;
+    out->position = vec3_step(s->center, s->radius, n);
     /* n is exact to 4 roundings, its product and the sum add one each. */
     vec3 size = vec3_add(vec3_abs(s->center),
                          vec3_make(s->radius, s->radius, s->radius));
-    out.position_error = vec3_scale(size, rounding_bound(6));
-    out.geometric_normal = n;
-    out.shading_normal = n;
-    out.uv = vec2_make(azimuth(n) / (2.0f * PI), theta / PI);
-    sphere_differentials(s, n, &out);
-    return out;
+    out->position_error = vec3_scale(size, rounding_bound(6));
+    out->geometric_normal = n;
+    out->shading_normal = n;
+    out->uv = vec2_make(azimuth(n) / (2.0f * PI), theta / PI);
+    sphere_differentials(s, n, out);
 }
 
 aabb sphere_bounds(const struct sphere *s)

@@ -24,7 +24,8 @@ bool sphere_intersect(const struct sphere *s, const ray *r, float *t);
 
 /* The surface at a hit: position on the sphere, outward normal, u = phi / 2pi
  * from +x towards +y, v = theta / pi from +z, and their differentials. */
-struct surface sphere_surface(const struct sphere *s, const ray *r, float t);
+void sphere_surface(const struct sphere *s, const ray *r, float t,
+                    struct surface *out);
 
 aabb sphere_bounds(const struct sphere *s);
 

@@ -38,7 +38,9 @@ static void expect_vec3(vec3 want, vec3 got, const char *what)
 static struct surface surface_at(uint32_t triangle, float b1, float b2)
 {
     struct triangle_hit hit = {1.0f, b1, b2};
-    return mesh_surface(&quad, triangle, &hit);
+    struct surface s;
+    mesh_surface(&quad, triangle, &hit, &s);
+    return s;
 }
 
 static void corners_come_by_index(void)

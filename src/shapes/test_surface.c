@@ -65,7 +65,7 @@ static bool random_hit(struct sampler *random, vec3 p[3], float eye,
     ray r = ray_make(origin, vec3_sub(aim, origin), 0, INFINITY);
     if (!triangle_intersect(p, &r, &hit))
         return false; /* aimed at the rim */
-    *out = mesh_surface(&m, 0, &hit);
+    mesh_surface(&m, 0, &hit, out);
     return true;
 }
 
@@ -130,7 +130,9 @@ static struct surface random_sphere_hit(struct sampler *random,
     ray r = ray_make(vec3_step(s->center, 5 * s->radius, d), vec3_negate(d), 0,
                      INFINITY);
     TEST_ASSERT_TRUE(sphere_intersect(s, &r, &t));
-    return sphere_surface(s, &r, t);
+    struct surface s;
+    sphere_surface(s, &r, t, &s);
+    return s;
 }
 
 /* Outwards it meets nothing; inwards it meets the far wall, which is at twice
@@ -274,7 +276,8 @@ static void rays_without_extent_have_no_footprint(void)
                      0.0f, INFINITY);
     float t;
     TEST_ASSERT_TRUE(sphere_intersect(&ball, &r, &t));
-    struct surface s = sphere_surface(&ball, &r, t);
+    struct surface s;
+    sphere_surface(&ball, &r, t, &s);
     surface_footprint(&s, &r, &d);
     TEST_ASSERT_TRUE(s.uv_dx.x > 0.001f);
     TEST_ASSERT_TRUE(s.uv_dy.x == 0.0f && s.uv_dy.y == 0.0f);

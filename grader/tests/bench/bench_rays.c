@@ -63,7 +63,8 @@ static void make_for_pixel(struct maker *m, int x, int y, uint64_t key)
     if (!scene_nearest(&m->scene, &r, &hit))
         return;
     const struct object *object;
-    struct surface s = scene_surface(&m->scene, &r, &hit, &object);
+    struct surface s;
+    scene_surface(&m->scene, &r, &hit, &object, &s);
     ray bounce = bounce_ray(&s, r.direction, random_pair(key, 2));
     ray shadow = shadow_ray(m->mesh, &s, random_pair(key, 4));
     keep(m, RAYS_BOUNCE, &bounce);
