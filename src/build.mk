@@ -46,7 +46,9 @@ debug := -O0 -g3
 asan := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all \
         -fno-omit-frame-pointer
 # Modules are files; only link-time optimisation can inline one into another.
-lto := $(if $(filter release-gcc,$(OPT)-$(notdir $(CC))$(CHECK)),-flto=auto)
+# Where gcc 12 knows which registers a callee leaves alone (ipa-ra), it leaves
+# the upper halves of vectors in use, and the C library's mathematics is slow.
+lto := $(if $(filter release-gcc,$(OPT)-$(notdir $(CC))$(CHECK)),-flto=auto -fno-ipa-ra)
 
 # -isystem: the warnings are for our code.
 libraries_cflags := $(patsubst -I%,-isystem%,$(filter -I%,$(shell \
