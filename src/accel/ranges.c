@@ -53,12 +53,13 @@ static float within_range(float x)
     return greater(-largest_side, lesser(x, largest_side));
 }
 
-struct reference reference_make(const aabb *box, uint32_t primitive)
+struct reference reference_make(const aabb *box, uint32_t primitive, bool alone)
 {
     struct reference r = {
         {{within_range(box->lower.x), within_range(box->lower.y),
           within_range(box->lower.z), 0.0f, -within_range(box->upper.x),
-          -within_range(box->upper.y), -within_range(box->upper.z), 0.0f}}};
+          -within_range(box->upper.y), -within_range(box->upper.z),
+          alone ? -1.0f : 0.0f}}};
     memcpy(&r.bounds.side[3], &primitive, sizeof primitive);
     return r;
 }
@@ -68,6 +69,12 @@ uint32_t reference_primitive(const struct reference *r)
     uint32_t primitive;
     memcpy(&primitive, &r->bounds.side[3], sizeof primitive);
     return primitive;
+}
+
+bool range_is_leaf(const struct range *range)
+{
+    bool one_alone = range->boxes.side[7] < 0.0f;
+    return range->count <= (one_alone ? 1u : RANGE_LEAF);
 }
 
 struct range range_of_all(const struct reference references[], uint32_t count)
@@ -232,11 +239,11 @@ static void halve(const struct reference *references, const struct range *range,
         include(i < left->count ? left : right, &references[range->first + i]);
 }
 
-/* The number of levels that halving needs down to leaves. */
+/* The number of levels that halving needs down to leaves, all of one. */
 static int levels_needed(uint32_t count)
 {
     int levels = 1;
-    for (; count > RANGE_LEAF; count -= count / 2)
+    for (; count > 1; count -= count / 2)
         levels++;
     return levels;
 }

@@ -5,6 +5,7 @@
 #ifndef RAYBOOK_ACCEL_RANGES_H
 #define RAYBOOK_ACCEL_RANGES_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "base/box.h"
@@ -19,13 +20,15 @@ struct bounds {
 };
 
 /* A primitive on its way through the builder; its number is stored, bit by
- * bit, in the float to spare. */
+ * bit, in the first float to spare. In the second there is -1 if it must be
+ * alone in its leaf, else 0: the minimum says whether any of several must. */
 struct reference {
     struct bounds bounds;
 };
 
 /* Coordinates beyond 1e30 are cut to that: no beam (beam.h) goes so far. */
-struct reference reference_make(const aabb *box, uint32_t primitive);
+struct reference reference_make(const aabb *box, uint32_t primitive,
+                                bool alone);
 uint32_t reference_primitive(const struct reference *r);
 
 /* A range of references with the bounds of its boxes and of their centroids
@@ -41,7 +44,11 @@ aabb bounds_box(const struct bounds *b);
 /* All references. Several threads share the work. */
 struct range range_of_all(const struct reference references[], uint32_t count);
 
-/* Splits a range of more than RANGE_LEAF where the surface area heuristic
+/* May the range be a leaf? It has at most RANGE_LEAF references, or one if any
+ * of them must be alone. */
+bool range_is_leaf(const struct range *range);
+
+/* Splits a range that is no leaf where the surface area heuristic
  * finds it cheapest, and sorts its references accordingly; by halves, as they
  * stand, where it finds no place (all centroids are one) or where more than
  * levels levels would be needed below otherwise.

@@ -280,7 +280,8 @@ static void check_pack(uint32_t child, const aabb *box)
             TEST_ASSERT_EQUAL_FLOAT(things.corners[i][2].y,
                                     p->corner[2][1][lane]);
     }
-    TEST_ASSERT_EQUAL(others, (child & WIDE_OTHERS) != 0);
+    TEST_ASSERT_EQUAL(others, (child & WIDE_OTHER) != 0);
+    TEST_ASSERT_TRUE(!others || p->primitive[1] == NO_PRIMITIVE);
 }
 
 static void check(uint32_t child, const aabb *box, int depth)

@@ -102,7 +102,7 @@ static void split(struct builder *b, const struct range *range, uint32_t index,
     twig->box = bounds_box(&range->boxes);
     twig->first = range->first;
     twig->count = range->count;
-    if (range->count <= RANGE_LEAF) {
+    if (range_is_leaf(range)) {
         price_leaf(twig);
         return;
     }

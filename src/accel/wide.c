@@ -29,15 +29,20 @@ struct waiting {
 enum { MOST_WAITING = WIDE_MAX_DEPTH * (WIDE - 1) };
 //< wide.query
 
-//> wide.boxes: Test eight boxes
-/* t_enter: where the beam enters each box, INFINITY where it misses it. The
- * planes that the beam comes to first are near. */
-static inline void enter_boxes(const struct query *q, const float *near_x,
-                               const float *near_y, const float *near_z,
-                               const float *far_x, const float *far_y,
-                               const float *far_z, float t_enter[restrict WIDE])
+//> wide.node: Test eight boxes
+/* t_enter: where the beam enters each child's box, INFINITY where it misses
+ * it. A missing child is missed: its near planes are at +infinity. */
+static inline void enter_children(const struct wide_node *restrict n,
+                                  const struct query *q,
+                                  float t_enter[restrict WIDE])
 {
     const struct beam *b = &q->beam;
+    const float *near_x = n->planes[b->near_plane[0]];
+    const float *near_y = n->planes[b->near_plane[1]];
+    const float *near_z = n->planes[b->near_plane[2]];
+    const float *far_x = n->planes[b->far_plane[0]];
+    const float *far_y = n->planes[b->far_plane[1]];
+    const float *far_z = n->planes[b->far_plane[2]];
     const float ix = b->inverse[0], iy = b->inverse[1], iz = b->inverse[2];
     const float ex = b->enter[0], ey = b->enter[1], ez = b->enter[2];
     const float lx = b->leave[0], ly = b->leave[1], lz = b->leave[2];
@@ -54,17 +59,7 @@ static inline void enter_boxes(const struct query *q, const float *near_x,
         t_enter[i] = enter <= leave ? enter : INFINITY;
     }
 }
-
-/* A missing child is missed: its near planes are at +infinity. */
-static inline void enter_children(const struct wide_node *n,
-                                  const struct query *q, float t_enter[WIDE])
-{
-    const int *near = q->beam.near_plane, *far = q->beam.far_plane;
-    enter_boxes(q, n->planes[near[0]], n->planes[near[1]], n->planes[near[2]],
-                n->planes[far[0]], n->planes[far[1]], n->planes[far[2]],
-                t_enter);
-}
-//< wide.boxes
+//< wide.node
 
 //> wide.descend: Go to the nearest child, let the others wait
 /* The nearest stays in a register; the others are not worth sorting, since
@@ -164,66 +159,22 @@ static bool confirm(const struct query *q, const struct wide_pack *p, int lane,
         return hit.t <= ((const struct nearest *)q->hit)->t;
     return nearest_offer(q->hit, &hit, q->r);
 }
-
-static bool is_other(const struct wide_pack *p, int lane)
-{
-    return isnan(p->corner[0][0][lane]) && p->primitive[lane] != NO_PRIMITIVE;
-}
-
-static bool ask_other(const struct query *q, const struct wide_pack *p,
-                      int lane)
-{
-    return q->test(q->context, p->primitive[lane], 1, q->r, q->hit);
-}
 //< wide.confirm
 
-//> wide.others: Ask about what is no triangle
-/* Where the beam enters the boxes of a pack's other primitives. */
-static void enter_others(const struct query *q, const struct wide_pack *p,
-                         float t_enter[WIDE])
-{
-    const int *near = q->beam.near_plane, *far = q->beam.far_plane;
-    enter_boxes(q, p->corner[1 + near[0] % 2][0], p->corner[1 + near[1] % 2][1],
-                p->corner[1 + near[2] % 2][2], p->corner[1 + far[0] % 2][0],
-                p->corner[1 + far[1] % 2][1], p->corner[1 + far[2] % 2][2],
-                t_enter);
-    for (int i = 0; i < WIDE; i++)
-        if (!is_other(p, i))
-            t_enter[i] = INFINITY;
-}
-
-static int first_of(const float t_enter[WIDE])
-{
-    int first = 0;
-    for (int i = 1; i < WIDE; i++)
-        if (t_enter[i] < t_enter[first])
-            first = i;
-    return first;
-}
-
-/* From near to far: one of them may be a mesh of a million triangles. */
-static bool test_others(const struct query *q, const struct wide_pack *p,
-                        bool any)
-{
-    float t_enter[WIDE];
-    bool found = false;
-    enter_others(q, p, t_enter);
-    for (int i = first_of(t_enter);
-         !(found && any) && t_enter[i] < INFINITY && t_enter[i] <= q->r->t_max;
-         i = first_of(t_enter)) {
-        found = ask_other(q, p, i) || found;
-        t_enter[i] = INFINITY;
-    }
-    return found;
-}
-//< wide.others
-
 //> wide.leaf: Test a leaf
+/* What is no triangle is alone in its leaf. */
+static bool test_other(const struct query *q, const struct wide_pack *p)
+{
+    return q->test(q->context, p->primitive[0], 1, q->r, q->hit);
+}
+
 static inline bool test_leaf(const struct query *q, uint32_t leaf, bool any)
 {
     const struct wide_pack *p = &q->tree->packs[leaf & WIDE_INDEX];
     float perhaps[WIDE];
     bool found = false;
+    if (leaf & WIDE_OTHER)
+        return test_other(q, p);
     try_triangles(p, q, perhaps);
     for (int i = 0; i < WIDE; i++) {
         if (!(perhaps[i] < INFINITY) || !confirm(q, p, i, any))
@@ -232,7 +183,7 @@ static inline bool test_leaf(const struct query *q, uint32_t leaf, bool any)
             return true;
         found = true;
     }
-    return leaf & WIDE_OTHERS ? test_others(q, p, any) || found : found;
+    return found;
 }
 //< wide.leaf
 
@@ -273,18 +224,26 @@ static inline bool walk(const struct query *q, bool any)
 }
 //< wide.walk
 
+static bool ask_pack(const struct query *q, const struct wide_pack *p, bool any)
+{
+    bool found = false;
+    if (isnan(p->corner[0][0][0]))
+        return test_other(q, p);
+    for (int i = 0; i < WIDE && !(found && any); i++)
+        if (p->primitive[i] != NO_PRIMITIVE && confirm(q, p, i, any))
+            found = true;
+    return found;
+}
+
 static const struct beam_margin no_margin = {0.0f, 0.0f};
 
 /* Every primitive, for a ray that single precision is too narrow for. */
 static bool ask_all(const struct query *q, bool any)
 {
     bool found = false;
-    for (uint32_t k = 0; k < q->tree->pack_count; k++) {
-        const struct wide_pack *p = &q->tree->packs[k];
-        for (int i = 0; i < WIDE && !(found && any); i++)
-            if (is_other(p, i) ? ask_other(q, p, i) : confirm(q, p, i, any))
-                found = true;
-    }
+    for (uint32_t k = 0; k < q->tree->pack_count && !(found && any); k++)
+        if (ask_pack(q, &q->tree->packs[k], any))
+            found = true;
     count(0, q->tree->pack_count);
     return found;
 }

@@ -33,8 +33,7 @@ enum {
 
 /* A child is a node's index, or a pack's together with WIDE_LEAF. */
 #define WIDE_LEAF 0x80000000u
-#define WIDE_OTHERS                                                            \
-    0x40000000u /* not all primitives of the leaf's are triangles */
+#define WIDE_OTHER 0x40000000u /* a leaf of one that is no triangle */
 #define WIDE_INDEX 0x3fffffffu
 
 /* planes[2 axis] and planes[2 axis + 1] are the lower and the upper sides of
@@ -44,9 +43,9 @@ struct wide_node {
     uint32_t child[WIDE];
 };
 
-/* corner[i][axis][lane] of the triangle primitive[lane]. The first corner of a
- * primitive that is none is NaN; the other two are the lower and the upper one
- * of its box. An empty lane is all NaN; its primitive is NO_PRIMITIVE. */
+/* corner[i][axis][lane] of the triangle primitive[lane]. The corners of an
+ * empty lane are NaN and its primitive is NO_PRIMITIVE. What is no triangle
+ * stands in the first lane of a pack of its own, with corners that are NaN. */
 struct wide_pack {
     float corner[3][3][WIDE];
     uint32_t primitive[WIDE];

@@ -10,25 +10,36 @@ enum { SMALL_TASK = 1024, CACHE_LINE = 64 };
 
 /* References -------------------------------------------------------------- */
 
-static aabb box_of(const struct wide_source *source, uint32_t primitive)
+/* The corners of a triangle; false: it is none. */
+static bool corners_of(const struct wide_source *source, uint32_t primitive,
+                       vec3 corners[3])
+{
+    return source->corners != NULL &&
+           source->corners(source->context, primitive, corners);
+}
+
+/* What is no triangle takes as long as a pack of them, and the boxes of eight
+ * children are tested in one go: so each of those has a leaf of its own. */
+static struct reference make_reference(const struct wide_source *source,
+                                       uint32_t primitive)
 {
     vec3 p[3];
-    if (source->corners == NULL ||
-        !source->corners(source->context, primitive, p))
-        return source->box(source->context, primitive);
-    return aabb_include(aabb_include(aabb_include(aabb_empty(), p[0]), p[1]),
-                        p[2]);
+    aabb box = aabb_empty();
+    bool other = !corners_of(source, primitive, p);
+    if (other)
+        box = source->box(source->context, primitive);
+    for (int i = 0; i < 3 && !other; i++)
+        box = aabb_include(box, p[i]);
+    return reference_make(&box, primitive, other);
 }
 
 static struct reference *make_references(const struct wide_source *source)
 {
     struct reference *references = mem_alloc(source->count, sizeof *references);
 #pragma omp parallel for
-    for (uint32_t i = 0; i < source->count; i++) {
-        uint32_t number = source->numbers != NULL ? source->numbers[i] : i;
-        aabb box = box_of(source, number);
-        references[i] = reference_make(&box, number);
-    }
+    for (uint32_t i = 0; i < source->count; i++)
+        references[i] = make_reference(
+            source, source->numbers != NULL ? source->numbers[i] : i);
     return references;
 }
 
@@ -80,16 +91,11 @@ static bool write_lane(const struct wide_source *source, uint32_t primitive,
 {
     vec3 corners[3];
     p->primitive[lane] = primitive;
-    if (source->corners != NULL &&
-        source->corners(source->context, primitive, corners)) {
-        for (int i = 0; i < 3; i++)
-            write_corner(p, i, lane, corners[i]);
-        return true;
-    }
-    aabb box = source->box(source->context, primitive);
-    write_corner(p, 1, lane, box.lower);
-    write_corner(p, 2, lane, box.upper);
-    return false;
+    if (!corners_of(source, primitive, corners))
+        return false;
+    for (int i = 0; i < 3; i++)
+        write_corner(p, i, lane, corners[i]);
+    return true;
 }
 
 static void write_nothing(struct wide_pack *p)
@@ -113,7 +119,7 @@ static uint32_t write_pack(const struct writer *w, const struct twig *twig,
         if (!write_lane(w->source,
                         reference_primitive(&w->references[twig->first + i]), p,
                         (int)i))
-            reference |= WIDE_OTHERS;
+            reference |= WIDE_OTHER;
     return reference;
 }
 
