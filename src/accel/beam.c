@@ -10,12 +10,13 @@ static const float box_width = 0x1p-21f, triangle_width = 0x1p-20f;
  * 2^-40 R, and no product overflows. */
 static const float least_slope = 0x1p-40f;
 
+/* A beam is made for every ray, and in which direction it goes a processor
+ * cannot guess: so what depends on that is computed, without a branch. */
 static int largest_axis(vec3 v)
 {
     vec3 size = vec3_abs(v);
-    if (size.x >= size.y && size.x >= size.z)
-        return 0;
-    return size.y >= size.z ? 1 : 2;
+    int second = size.y > size.x, third = size.z > greater(size.x, size.y);
+    return 2 * third + (second & !third);
 }
 
 static float largest(vec3 v)
@@ -26,25 +27,28 @@ static float largest(vec3 v)
 static void make_slab(struct beam *b, int axis, float origin, float inverse,
                       float steepest, float width)
 {
-    if (!(fabsf(inverse) <= steepest))
-        inverse = copysignf(steepest, inverse);
-    bool backwards = signbit(inverse);
-    float spread = fabsf(inverse) * width;
+    float size = lesser(fabsf(inverse), steepest), spread = size * width;
+    int backwards = signbit(inverse) != 0;
+    float to_origin = -(origin * copysignf(size, inverse));
     b->near_plane[axis] = 2 * axis + backwards;
-    b->far_plane[axis] = 2 * axis + !backwards;
-    b->inverse[axis] = inverse;
-    b->enter[axis] = -(origin * inverse) - spread;
-    b->leave[axis] = -(origin * inverse) + spread;
+    b->far_plane[axis] = 2 * axis + 1 - backwards;
+    b->inverse[axis] = copysignf(size, inverse);
+    b->enter[axis] = to_origin - spread;
+    b->leave[axis] = to_origin + spread;
     b->origin[axis] = origin;
 }
 
-static void make_shear(struct beam *b, const ray *r, float width)
+/* Along z the slab's inverse is that of the ray: it is the least of the three,
+ * so that it was not cut. */
+static void make_shear(struct beam *b, vec3 direction, float width)
 {
-    b->x = (b->z + 1) % 3;
-    b->y = (b->z + 2) % 3;
-    b->scale_z = vec3_axis(r->inverse_direction, b->z);
-    b->shear_x = vec3_axis(r->direction, b->x) * b->scale_z;
-    b->shear_y = vec3_axis(r->direction, b->y) * b->scale_z;
+    static const int next_axis[3] = {1, 2, 0};
+    const float along[3] = {direction.x, direction.y, direction.z};
+    b->x = next_axis[b->z];
+    b->y = next_axis[b->x];
+    b->scale_z = b->inverse[b->z];
+    b->shear_x = along[b->x] * b->scale_z;
+    b->shear_y = along[b->y] * b->scale_z;
     b->width = width;
     b->width_t = width * fabsf(b->scale_z);
 }
@@ -57,7 +61,8 @@ bool beam_make(const ray *r, const aabb *box, struct beam_margin margin,
                           largest(vec3_sub(o, box->lower)));
     float far = reach + largest(vec3_abs(o));
     out->z = largest_axis(r->direction);
-    float least = fabsf(vec3_axis(inverse, out->z));
+    vec3 size = vec3_abs(inverse);
+    float least = lesser(size.x, lesser(size.y, size.z));
     if (!(far <= 0x1p60f && far * least <= 0x1p84f))
         return false;
     float steepest = least / least_slope;
@@ -66,6 +71,6 @@ bool beam_make(const ray *r, const aabb *box, struct beam_margin margin,
     make_slab(out, 0, o.x, inverse.x, steepest, width);
     make_slab(out, 1, o.y, inverse.y, steepest, width);
     make_slab(out, 2, o.z, inverse.z, steepest, width);
-    make_shear(out, r, triangle_width * reach + more);
+    make_shear(out, r->direction, triangle_width * reach + more);
     return true;
 }
