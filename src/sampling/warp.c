@@ -96,9 +96,8 @@ float warp_cone_pdf(vec3 direction, float one_minus_cosine)
 vec2 warp_triangle(vec2 random)
 {
     float x = random.x, y = random.y;
-    if (y > x)
-        return vec2_make(0.5f * x, y - 0.5f * x);
-    return vec2_make(x - 0.5f * y, 0.5f * y);
+    float half_smaller = 0.5f * (x < y ? x : y);
+    return vec2_make(x - half_smaller, y - half_smaller);
 }
 
 float warp_triangle_pdf(vec2 weights)

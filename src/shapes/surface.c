@@ -60,14 +60,15 @@ void surface_footprint(struct surface *s, const ray *r,
 //< surface.footprint
 
 //> surface.leave: Start a ray off the surface
-/* nextafterf, inlined: floats of one sign are in the order of their bits. */
-static float next_float(float x, float towards)
+/* The next float above x (steps 1) or below it (steps -1), or x (0). Floats of
+ * one sign are in the order of their bits. */
+static float next_float(float x, int steps)
 {
     uint32_t bits;
     if (x == 0.0f || !isfinite(x))
-        return nextafterf(x, towards);
+        return steps == 0 ? x : nextafterf(x, (float)steps * INFINITY);
     memcpy(&bits, &x, sizeof bits);
-    bits += (x > 0.0f) == (towards > 0.0f) ? 1u : -1u;
+    bits += (uint32_t)(x > 0.0f ? steps : -steps);
     memcpy(&x, &bits, sizeof bits);
     return x;
 }
@@ -76,11 +77,7 @@ static float next_float(float x, float towards)
  * to a large coordinate may round it away altogether. */
 static float round_outwards(float moved, float offset)
 {
-    if (offset > 0.0f)
-        return next_float(moved, INFINITY);
-    if (offset < 0.0f)
-        return next_float(moved, -INFINITY);
-    return moved;
+    return next_float(moved, (offset > 0.0f) - (offset < 0.0f));
 }
 
 static vec3 leave(const struct surface *s, vec3 direction)
