@@ -118,18 +118,29 @@ static bool scatter_on(struct path *p, const struct vertex *v)
 //< path.scatter
 
 //> path.walk: Walk from vertex to vertex
+/* A path that may not scatter any more only looks for light. */
+static bool at_end(const struct path *p)
+{
+    return p->scattered >= p->max_scattered || p->rough >= p->max_rough;
+}
+
+static bool next_vertex(const struct path *p, struct vertex *v)
+{
+    return at_end(p) ? tracer_light(p->t, &p->r, &p->d, v)
+                     : tracer_hit(p->t, &p->r, &p->d, v);
+}
+
 static rgb walk(struct path *p)
 {
     for (;;) {
         struct vertex v;
-        if (!tracer_hit(p->t, &p->r, &p->d, &v)) {
+        if (!next_vertex(p, &v)) {
             add_environment(p);
             break;
         }
         add_emitted(p, &v);
         const struct material *material = v.object->material;
-        if (material == NULL || p->scattered >= p->max_scattered ||
-            p->rough >= p->max_rough)
+        if (material == NULL || at_end(p))
             break;
         if (!material_is_specular(material))
             ask_lights(p, &v);

@@ -28,6 +28,11 @@ struct vertex {
 bool tracer_hit(const struct tracer *t, const ray *r,
                 const struct ray_differential *d, struct vertex *out);
 
+/* The same for who looks for light only: of a vertex that does not shine no
+ * more than the object is filled in. */
+bool tracer_light(const struct tracer *t, const ray *r,
+                  const struct ray_differential *d, struct vertex *out);
+
 /* The radiance that the vertex itself emits back along the ray. */
 rgb vertex_emitted(const struct tracer *t, const struct vertex *v);
 

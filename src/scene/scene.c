@@ -169,6 +169,12 @@ bool scene_nearest(const struct scene *scene, const ray *r,
     return true;
 }
 
+const struct object *scene_object(const struct scene *scene,
+                                  const struct scene_hit *hit)
+{
+    return &scene->objects[primitive_object(scene, hit->primitive)];
+}
+
 static void triangle_surface(const struct object *o, uint32_t triangle,
                              const struct scene_hit *hit, struct surface *out)
 {
@@ -180,22 +186,19 @@ static void triangle_surface(const struct object *o, uint32_t triangle,
 }
 
 void scene_surface(const struct scene *scene, const ray *r,
-                   const struct scene_hit *hit, const struct object **object,
+                   const struct scene_hit *hit, const struct object *object,
                    struct surface *out)
 {
-    uint32_t index = primitive_object(scene, hit->primitive);
-    const struct object *o = &scene->objects[index];
-    *object = o;
-    switch (o->kind) {
+    uint32_t first = scene->first_primitive[object - scene->objects];
+    switch (object->kind) {
     case OBJECT_SPHERE:
-        sphere_surface(&o->sphere, r, hit->t, out);
+        sphere_surface(&object->sphere, r, hit->t, out);
         break;
     case OBJECT_RECT:
-        rect_surface(&o->rect, r, hit->t, out);
+        rect_surface(&object->rect, r, hit->t, out);
         break;
     case OBJECT_MESH:
-        triangle_surface(o, hit->primitive - scene->first_primitive[index], hit,
-                         out);
+        triangle_surface(object, hit->primitive - first, hit, out);
         break;
     }
 }

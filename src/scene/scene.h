@@ -81,7 +81,8 @@ struct scene {
     struct light_table light_table;
 };
 
-/* Where a ray met something. Ask scene_surface for more. */
+/* Where a ray met something. Ask scene_object and scene_surface
+ * for more. */
 struct scene_hit {
     uint32_t primitive; /* its number, in the order of the file */
     float t;
@@ -102,9 +103,11 @@ bool scene_nearest(const struct scene *scene, const ray *r,
  * surface that it leaves. */
 bool scene_any(const struct scene *scene, const ray *r);
 
-/* The surface at a hit of this ray, and the object that it belongs to. */
+/* The object that was hit, and its surface where this ray hit it. */
+const struct object *scene_object(const struct scene *scene,
+                                  const struct scene_hit *hit);
 void scene_surface(const struct scene *scene, const ray *r,
-                   const struct scene_hit *hit, const struct object **object,
+                   const struct scene_hit *hit, const struct object *object,
                    struct surface *out);
 
 /* Is anything in this direction, however far? The query starts off the

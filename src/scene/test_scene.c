@@ -188,10 +188,10 @@ static void the_nearest_object_is_hit_with_its_material(void)
             ACCEL_BVH);
     struct scene_hit hit = nearest(vec3_make(0, 0, 10), vec3_make(0, 0, 9));
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 6, hit.t);
-    const struct object *o = NULL;
+    const struct object *o = scene_object(&scene, &hit);
     ray r = ray_make(vec3_make(0, 0, 10), vec3_make(0, 0, -1), 0, INFINITY);
     struct surface s;
-    scene_surface(&scene, &r, &hit, &o, &s);
+    scene_surface(&scene, &r, &hit, o, &s);
     TEST_ASSERT_EQUAL_PTR(scene.objects + 1, o);
     TEST_ASSERT_EQUAL_PTR(scene.materials, o->material);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 4, s.position.z);
@@ -215,11 +215,11 @@ static void an_empty_scene_is_missed(void)
 static bool shadowed(float x, vec3 light)
 {
     struct scene_hit hit = nearest(vec3_make(x, 0.25f, 0), vec3_make(x, 0, 0));
-    const struct object *o;
+    const struct object *o = scene_object(&scene, &hit);
     ray r =
         ray_make(vec3_make(x, 0.25f, 0), vec3_make(0, -0.25f, 0), 0, INFINITY);
     struct surface s;
-    scene_surface(&scene, &r, &hit, &o, &s);
+    scene_surface(&scene, &r, &hit, o, &s);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0, s.position.y);
     return scene_segment_blocked(&scene, &s, light);
 }

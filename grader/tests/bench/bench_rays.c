@@ -62,9 +62,8 @@ static void make_for_pixel(struct maker *m, int x, int y, uint64_t key)
     keep(m, RAYS_PRIMARY, &r);
     if (!scene_nearest(&m->scene, &r, &hit))
         return;
-    const struct object *object;
     struct surface s;
-    scene_surface(&m->scene, &r, &hit, &object, &s);
+    scene_surface(&m->scene, &r, &hit, scene_object(&m->scene, &hit), &s);
     ray bounce = bounce_ray(&s, r.direction, random_pair(key, 2));
     ray shadow = shadow_ray(m->mesh, &s, random_pair(key, 4));
     keep(m, RAYS_BOUNCE, &bounce);
