@@ -1,7 +1,8 @@
-// Makes one page ready for paper: folded parts open, a table of contents behind the title.
+// Makes one page ready for paper: stubs open, a table of contents behind the title. Where a name
+// is used stays folded: paper has the index.
 // `pages` maps the ids of headings to page numbers, once they are known.
 (pages) => {
-  document.querySelectorAll("details").forEach((part) => { part.open = true; });
+  document.querySelectorAll("details.rb-stub").forEach((part) => { part.open = true; });
   document.querySelector("nav.rb-contents")?.remove();
   const contents = document.createElement("nav");
   contents.className = "rb-contents";
