@@ -7,8 +7,7 @@
 
 enum { BINS = 16 };
 
-/* Boxes of eight floats --------------------------------------------------- */
-
+//> ranges.bounds: Join boxes of eight floats
 static const float largest_side = 1e30f;
 
 static const struct bounds nowhere = {{INFINITY, INFINITY, INFINITY, INFINITY,
@@ -91,9 +90,9 @@ struct range range_of_all(const struct reference references[], uint32_t count)
     }
     return range;
 }
+//< ranges.bounds
 
-/* Choosing the split ------------------------------------------------------ */
-
+//> ranges.bins: Sort centroids into bins along all axes
 struct bins {
     struct bounds boxes[3][BINS];
     uint32_t count[3][BINS];
@@ -140,7 +139,9 @@ static void fill_bins(const struct reference *references,
             bins->count[axis][bin]++;
         }
 }
+//< ranges.bins
 
+//> ranges.choose: Find the border that costs least
 struct choice {
     int axis;
     uint32_t border; /* the first bin on the right; 0: no split */
@@ -185,9 +186,9 @@ static struct choice choose(const struct bins *bins, const struct binning *b)
             sweep(bins, axis, &best);
     return best;
 }
+//< ranges.choose
 
-/* Splitting --------------------------------------------------------------- */
-
+//> ranges.split: Move the left to the front
 static void swap(struct reference *a, struct reference *b)
 {
     struct reference keep = *a;
@@ -269,3 +270,4 @@ void range_split(struct reference references[], const struct range *range,
     right->first = left->first + left->count;
     right->count = range->count - left->count;
 }
+//< ranges.split

@@ -5,8 +5,7 @@
 
 enum { SMALL_TASK = 4096 };
 
-/* What a subtree costs ---------------------------------------------------- */
-
+//> twigs.price: Say what a subtree costs
 /* cost[i - 1] is the least cost of a subtree that may use up to i of its
  * wide parent's children. With one it is a leaf or a wide node of its own;
  * with more it may instead hand them on to its own two children, in the best
@@ -56,9 +55,9 @@ static void price_inner(struct twig *twig, const struct twig pair[2])
         }
     }
 }
+//< twigs.price
 
-/* Growing ----------------------------------------------------------------- */
-
+//> twigs.grow: Grow the binary tree
 struct builder {
     struct reference *references;
     struct twig *twigs;
@@ -122,9 +121,9 @@ void twigs_grow(struct reference references[], uint32_t count, int depth_limit,
 #pragma omp single
     split(&b, &range, 0, 1);
 }
+//< twigs.grow
 
-/* Opening ----------------------------------------------------------------- */
-
+//> twigs.open: Open a node into eight
 /* Adds to child what becomes of a twig that may use up to shares children. */
 static int open(const struct twig twigs[], uint32_t index, int shares,
                 uint32_t child[], int count)
@@ -147,3 +146,4 @@ int twigs_open(const struct twig twigs[], uint32_t index,
     int count = open(twigs, t->children, left, child, 0);
     return open(twigs, t->children + 1, TWIGS_WIDE - left, child, count);
 }
+//< twigs.open
