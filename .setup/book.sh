@@ -1,18 +1,27 @@
 # shellcheck shell=bash
-# Part of setup.sh, for `make book` alone: node, and what the book is set with (KaTeX, typefaces),
-# into build/node. The lock has the hash of every package; none runs a script of its own.
+# Part of setup.sh, for `make book` alone: node, qpdf, and what the book is set with (KaTeX,
+# typefaces), into build/node. The lock has the hash of every package; none runs a script of its own.
 # shellcheck disable=SC2154 # here, root and work are setup.sh's
 
 node_modules=$root/build/node
 
-book_ready() { [ -d "$node_modules/node_modules" ] && cmp -s "$here/book/package-lock.json" "$node_modules/lock.stamp"; }
+book_ready() {
+    [ -z "$(absent_tools)" ] && [ -d "$node_modules/node_modules" ] &&
+        cmp -s "$here/book/package-lock.json" "$node_modules/lock.stamp"
+}
 
-# find_node: Debian's node and npm, unless there are others.
-find_node() {
+# absent_tools: Debian's packages for the commands that are not there; a node from elsewhere will do.
+absent_tools() {
+    have node || echo nodejs
+    have npm || echo npm
+    have qpdf || echo qpdf
+}
+
+find_tools() {
     local names
-    { ! have node || ! have npm; } || return 0
-    mapfile -t names < <(missing book)
-    have apt-get || die 'the book needs node and npm'
+    mapfile -t names < <(absent_tools)
+    [ ${#names[@]} != 0 ] || return 0
+    have apt-get || die "the book needs programs that are missing: ${names[*]}"
     find_root || die 'the book needs packages that are missing; this installs them:' \
         "    $(install_command "${names[*]}")"
     say "installing ${names[*]} for the book"
@@ -21,7 +30,8 @@ find_node() {
 }
 
 setup_book() {
-    find_node
+    find_tools
+    ! cmp -s "$here/book/package-lock.json" "$node_modules/lock.stamp" || return 0
     say "the book's typefaces and KaTeX into build/node"
     rm -rf "$node_modules"
     mkdir -p "$node_modules"

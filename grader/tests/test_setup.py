@@ -254,9 +254,9 @@ def test_python_too_old_is_named(machine: Machine) -> None:
 
 
 def with_npm(machine: Machine, tmp_path: Path) -> None:
-    """A node, and an npm that fails as long as `npm-fails` exists."""
+    """A node, a qpdf, and an npm that fails as long as `npm-fails` exists."""
     npm = '[ ! -e "$STATE/npm-fails" ] && mkdir "$2/node_modules" || { echo wrong hash; exit 1; }'
-    for name, body in (("node", "exit 1"), ("npm", npm)):
+    for name, body in (("node", "exit 1"), ("npm", npm), ("qpdf", "exit 1")):
         (tmp_path / "tools" / name).write_text(f"#!/usr/bin/env bash\n{body}\n")
         (tmp_path / "tools" / name).chmod(0o755)
 

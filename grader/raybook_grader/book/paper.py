@@ -6,6 +6,8 @@ import re
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib.resources import files
 from pathlib import Path
 
@@ -13,13 +15,20 @@ from playwright.sync_api import Page, sync_playwright
 
 from ..errors import BadInput
 from ..files import write_bytes
+from .pdf_file import sealed
 
-_DATE = re.compile(rb"/(CreationDate|ModDate) \(D:[^)]*\)")
 _DESTINATION = re.compile(r'\s*(\d+) \[.*\] "(print-\d+)"')
 _FOOT = (
     '<div style="width: 100%; font: 8px sans-serif; color: #666; text-align: center">'
     '<span class="pageNumber"></span></div>'
 )
+_PRINTS = 4  # one settles the numbers, but for a contents that grows by a page
+# Typefaces and pictures come when they are first needed, which may be too late for the print.
+_ALL_THERE = """async () => {
+  await Promise.all([...document.fonts].map((face) => face.load()));
+  await Promise.all([...document.images].map((image) => image.decode()));
+  await document.fonts.ready;
+}"""
 
 
 PageNumbers = dict[str, str]
@@ -29,31 +38,55 @@ PageNumbers = dict[str, str]
 def print_pdf(page: Path, out: Path, numbers: PageNumbers | None = None) -> PageNumbers:
     """Print a page in light colours; the bytes depend on the page alone.
 
-    Returns the page numbers of the contents; who knows them saves one of two prints.
+    Returns the page numbers of the contents. Who knows or remembers `numbers` saves a print, if
+    they still hold; a print with numbers that don't is never kept.
     """
+    with sheet_of(page) as sheet:
+        numbers = _destinations(_plain(sheet)) if numbers is None else numbers
+        for _ in range(_PRINTS):
+            data = printed(sheet, numbers)
+            before, numbers = numbers, _destinations(data)
+            if numbers == before:
+                write_bytes(out, sealed(data))
+                return numbers
+    raise BadInput(f"{out.name}: the page numbers of the contents do not settle")
+
+
+@contextmanager
+def sheet_of(page: Path) -> Iterator[Page]:
+    """The page, with all that belongs to it, as it is on paper."""
     program = shutil.which("chromium")
     if not program:
         raise BadInput("chromium is not there: run `make setup`")
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
         sheet = browser.new_page(color_scheme="light")
+        sheet.set_default_timeout(0)  # on a busy machine this takes what it takes
+        sheet.emulate_media(media="print")
         sheet.goto(page.resolve().as_uri())
-        sheet.evaluate("() => document.fonts.ready.then(() => true)")
-        if numbers is None:
-            numbers = _destinations(_printed(sheet, {}))
-        data = _printed(sheet, numbers)
+        sheet.evaluate(_ALL_THERE)
+        yield sheet
         browser.close()
-    write_bytes(out, _without_dates(data))
-    return numbers
 
 
-def _printed(sheet: Page, numbers: PageNumbers) -> bytes:
-    script = files(__package__ or "").joinpath("static", "print.js")
-    sheet.evaluate(script.read_text(encoding="utf-8"), numbers)
+def _plain(sheet: Page) -> bytes:
+    """Pages as they will be, without what only a program reads in a PDF."""
+    _prepare(sheet, {})
+    return sheet.pdf(prefer_css_page_size=True, print_background=True)
+
+
+def printed(sheet: Page, numbers: PageNumbers) -> bytes:
+    """The book with these page numbers in its contents, as Chromium gives it."""
+    _prepare(sheet, numbers)
     return sheet.pdf(
         prefer_css_page_size=True, print_background=True, outline=True, tagged=True,
         display_header_footer=True, header_template="<span></span>", footer_template=_FOOT,
     )  # fmt: skip
+
+
+def _prepare(sheet: Page, numbers: PageNumbers) -> None:
+    script = files(__package__ or "").joinpath("static", "print.js")
+    sheet.evaluate(script.read_text(encoding="utf-8"), numbers)
 
 
 def _destinations(data: bytes) -> PageNumbers:
@@ -68,13 +101,3 @@ def _destinations(data: bytes) -> PageNumbers:
             raise BadInput("pdfinfo (poppler-utils) is not there: run `make setup`") from None
     found = map(_DESTINATION.match, run.stdout.splitlines())
     return {match[2]: match[1] for match in found if match}
-
-
-def _without_dates(data: bytes) -> bytes:
-    """The dates replaced by one of the same length: a PDF counts its bytes."""
-
-    def fixed(match: re.Match[bytes]) -> bytes:
-        start = b"/" + match[1] + b" (D:"
-        return start + b"20000101000000+00'00'"[: len(match[0]) - len(start) - 1] + b")"
-
-    return _DATE.sub(fixed, data)
