@@ -13,6 +13,13 @@ LinkName = Callable[[str], str | None]
 """The address of a name's definition, if it has one."""
 
 
+COLOURED = frozenset(
+    ("k", "kr", "kc", "kt", "c", "c1", "cm", "s", "se", "sc", "mi", "mf", "mh", "cp", "cpf")
+)
+"""The token types, by Pygments' short names, that the style sheet gives a colour; no other needs
+an element, of which a page has thousands."""
+
+
 def highlight(lines: Sequence[str], link: LinkName) -> list[str]:
     """The lines as HTML. What belongs together over lines, a comment, is coloured as one."""
     marked = [""] * len(lines)
@@ -41,7 +48,7 @@ def _marked(token: _TokenType, text: str, link: LinkName) -> str:
     if address:
         body = f'<a class="rb-id" href="{escape(address)}">{body}</a>'
     name = _class(token)
-    return f'<span class="{name}">{body}</span>' if name and text.strip() else body
+    return f'<span class="{name}">{body}</span>' if name in COLOURED and text.strip() else body
 
 
 def _class(token: _TokenType) -> str:
