@@ -80,11 +80,12 @@ debug: ## A=03 or SCENE=file.json, PIXEL=x,y: that pixel's paths, and where VARI
 	+@$(student) debug --assignment "$(A)" --pixel "$(PIXEL)" \
 	    --scene "$(if $(filter command line,$(origin SCENE)),$(SCENE))"
 
-book: ## [EDITION=student|instructor] [DRAFT=1] [ACCEPT=1] weaves the book into build/book/
+book: ## [EDITION=student|instructor] [CHAPTER=04] [DRAFT=1] [ACCEPT=1] [FRESH=1] weaves the book into build/book/
 	@.setup/setup.sh
 	@.setup/setup.sh book
 	@$(python) -m raybook_grader.book $(if $(EDITION),--edition $(EDITION)) \
-	    $(if $(DRAFT),--draft) $(if $(ACCEPT),--accept)
+	    $(if $(CHAPTER),--chapter $(CHAPTER)) $(if $(DRAFT),--draft) $(if $(ACCEPT),--accept) \
+	    $(if $(FRESH),--fresh)
 
 handout: ## [OUT=dir] [A=03] [REVEAL=01,02] writes the student edition
 	@.setup/setup.sh
@@ -177,5 +178,5 @@ clean: ## removes what is compiled; keeps the installed environment
 	@rm -rf build/obj build/bin build/test build/kit build/raybook build/out
 
 .PHONY: help setup build render test format check-format check-python check watch hint \
-    debug handout grade museum calibrate references kit objects variance mitsuba bench judge-table \
-    class fuzz kill-table hostile cluster-table simulate clean
+    debug book handout grade museum calibrate references kit objects variance mitsuba bench \
+    judge-table class fuzz kill-table hostile cluster-table simulate clean

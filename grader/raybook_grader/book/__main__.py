@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from ..errors import BadInput
-from .build import build_book
+from .build import build_book, build_chapter
 from .editions import Edition
 from .sphinx_run import Settings
 
@@ -19,11 +19,16 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("--edition", type=Edition, choices=list(Edition), help="one edition only")
     parser.add_argument("--draft", action="store_true", help="pages only; faults are only told")
     parser.add_argument("--accept", action="store_true", help="the figures are as they should be")
+    parser.add_argument("--chapter", metavar="NN", help="the page of one chapter, as a draft")
+    parser.add_argument("--fresh", action="store_true", help="use nothing that was made before")
     asked = parser.parse_args(words)
     editions = [asked.edition] if asked.edition else list(Edition)
-    settings = Settings(asked.root.resolve(), asked.draft, asked.accept)
+    draft = asked.draft or bool(asked.chapter)
+    settings = Settings(asked.root.resolve(), draft, asked.accept)
     try:
-        return build_book(settings, editions)
+        if asked.chapter:
+            return build_chapter(settings, editions[0], asked.chapter)
+        return build_book(settings, editions, asked.fresh)
     except BadInput as fault:
         print(f"book: {fault}", file=sys.stderr)
         return 1

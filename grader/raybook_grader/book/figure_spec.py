@@ -8,6 +8,7 @@ import re
 import shlex
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from ..errors import BadInput
@@ -63,13 +64,18 @@ class FigureSpec:
 def picture_key(root: Path, spec: FigureSpec, picture: Picture) -> str:
     """Changes with anything that could change the picture; not with comments in the source."""
     digest = hashlib.sha256()
-    for part in (*_code(root), *_inputs(root, spec.scene)):
+    for part in (_code(root), *_inputs(root, spec.scene)):
         digest.update(hashlib.sha256(part).digest())
     words = [spec.scene, *spec.options, "/", *sorted(picture.stubs)]
     digest.update("\0".join(words).encode())
     if picture.mistake:
         digest.update(mistake_file(root, picture.mistake).read_bytes())
     return digest.hexdigest()[:20]
+
+
+def code_key(root: Path) -> str:
+    """Changes with the code of the renderer; not with its comments."""
+    return _code(root).hex()
 
 
 def mistake_file(root: Path, mistake: str) -> Path:
@@ -81,13 +87,23 @@ def mistake_file(root: Path, mistake: str) -> Path:
     return file
 
 
-def _code(root: Path) -> Iterator[bytes]:
-    """All that the renderer is compiled from, without its comments."""
+def _code(root: Path) -> bytes:
+    """All that the renderer is compiled from, without its comments, as a hash."""
     files = sorted(p for p in (root / "src").rglob("*.[ch]") if not _TEST.fullmatch(p.name))
-    for file in files:
-        text = _NOT_CODE.sub(_without_comment, file.read_text(encoding="utf-8"))
-        yield " ".join([file.name, *text.split()]).encode()
-    yield (root / "src" / "build.mk").read_bytes()
+    stamps = ((file, file.stat()) for file in [*files, root / "src" / "build.mk"])
+    return _code_of(tuple((file, stat.st_mtime_ns, stat.st_size) for file, stat in stamps))
+
+
+@lru_cache(maxsize=2)
+def _code_of(stamps: tuple[tuple[Path, int, int], ...]) -> bytes:
+    """The same for files as they are now; the stamps say when to read them again."""
+    digest = hashlib.sha256()
+    for file, *_ in stamps:
+        text = file.read_text(encoding="utf-8")
+        if file.suffix != ".mk":
+            text = " ".join([file.name, *_NOT_CODE.sub(_without_comment, text).split()])
+        digest.update(hashlib.sha256(text.encode()).digest())
+    return digest.digest()
 
 
 def _without_comment(match: re.Match[str]) -> str:

@@ -12,6 +12,7 @@ from sphinx.environment import BuildEnvironment
 from sphinx.util import logging
 
 from ..errors import BadInput
+from ..files import locked
 from . import figure_nodes
 from .directives import BookDirective
 from .editions import Edition
@@ -109,18 +110,25 @@ def check(app: Sphinx, environment: BuildEnvironment) -> None:
     if not app.config.book_manifest:
         return
     file = Path(app.config.book_manifest)
-    whole = app.config.book_edition == Edition.INSTRUCTOR
-    known, drawn = read_manifest(file), _entries(environment)
-    messages = differences(known, drawn, whole)
-    if app.config.book_accept and messages:
-        write_manifest(file, drawn if whole else {**known, **drawn})
-        messages = []
+    with locked(Path(app.config.book_figures) / ".manifest.lock"):
+        messages = _compare(app, file, _entries(environment))
     for message in messages:
         if app.config.book_draft:
             _log.info("%s", message)
         else:
             how = "look at it, then accept it with `make book ACCEPT=1`"
             _log.warning("%s: %s", message, how, type="book", subtype="figure")
+
+
+def _compare(app: Sphinx, file: Path, drawn: dict[str, Entry]) -> list[str]:
+    """What is not as the manifest says; nothing once it is accepted."""
+    whole = app.config.book_edition == Edition.INSTRUCTOR
+    known = read_manifest(file)
+    messages = differences(known, drawn, whole)
+    if app.config.book_accept and messages:
+        write_manifest(file, drawn if whole else {**known, **drawn})
+        return []
+    return messages
 
 
 def setup(app: Sphinx) -> None:

@@ -16,7 +16,7 @@ from PIL import Image
 from ..course import load_course
 from ..errors import BadInput
 from ..expected.programs import reference_program, variant_program
-from ..files import write_bytes, write_text
+from ..files import locked, write_bytes, write_text
 from ..literate.tree import load_tree
 from ..museum.exhibits import exhibits_of
 from .figure_spec import FigureSpec, Picture, mistake_file, picture_key
@@ -39,9 +39,10 @@ class Drawn:
 def draw(root: Path, cache: Path, spec: FigureSpec, picture: Picture) -> Drawn:
     """The picture, up to date; raises BadInput if it cannot be drawn."""
     file = _file(cache, root, spec, picture)
-    if not file.is_file() or not file.with_suffix(".json").is_file():
-        image = render_pixels(root, spec, _program(root, picture))
-        return keep(cache, root, spec, picture, image)
+    with locked(file.parent / ".lock"):  # the other edition may want it, too
+        if not file.is_file() or not file.with_suffix(".json").is_file():
+            image = render_pixels(root, spec, program_of(root, picture))
+            return keep(cache, root, spec, picture, image)
     facts = json.loads(file.with_suffix(".json").read_text(encoding="utf-8"))
     return Drawn(file, facts["pixels"], facts["means"])
 
@@ -60,7 +61,7 @@ def _file(cache: Path, root: Path, spec: FigureSpec, picture: Picture) -> Path:
     return cache / picture_key(root, spec, picture) / f"{spec.name}-{picture.kind}.jpg"
 
 
-def _program(root: Path, picture: Picture) -> Path:
+def program_of(root: Path, picture: Picture) -> Path:
     if picture.mistake:
         assignment, _, name = picture.mistake.partition("/")
         mistake_file(root, picture.mistake)

@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -33,6 +34,10 @@ class Settings:
         """Where the pages of an edition end up."""
         return self.out / edition
 
+    def aside(self, name: str) -> Path:
+        """Where something is kept that is not for readers."""
+        return self.out / ".work" / name
+
     def pdf(self, edition: Edition) -> Path:
         """The whole edition on paper."""
         return self.pages(edition) / f"raybook-{edition}.pdf"
@@ -40,24 +45,31 @@ class Settings:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What Sphinx made: pages in `folder`, and its warnings."""
+    """What Sphinx made: pages in `folder`, what it has read in `doctrees`, and its warnings."""
 
     folder: Path
+    doctrees: Path
     warnings: tuple[str, ...]
     crashed: bool
 
 
-def run_sphinx(settings: Settings, edition: Edition, builder: str, out: Path) -> Outcome:
-    """Build into the fresh folder `out`; every page is read anew."""
+def run_sphinx(
+    settings: Settings, edition: Edition, builder: str, out: Path, *,
+    doctrees: Path | None = None, pages: Sequence[Path] = (),
+) -> Outcome:  # fmt: skip
+    """Build into the fresh folder `out`. Every page is read anew, or `doctrees` are those that
+    another builder has read a moment ago. `pages`: write only these."""
     shutil.rmtree(out, ignore_errors=True)
-    doctrees = settings.out / ".work" / f"doctrees-{edition}-{builder}"
-    shutil.rmtree(doctrees, ignore_errors=True)
+    read = doctrees or out.parent / f"doctrees-{out.name}"
+    if not doctrees:
+        shutil.rmtree(read, ignore_errors=True)
     options = {"book_edition": edition.value, "book_draft": int(settings.draft),
                "book_accept": int(settings.accept), "book_root": settings.root,
-               "book_assets": settings.out / ".work" / f"assets-{edition}-{builder}",
+               "book_assets": read.with_name(f"{read.name}-assets"),
                "html_title": f"Raybook, {edition} edition"}  # fmt: skip
-    command = [sys.executable, "-m", "sphinx", "-q", "-E", "-n", "--keep-going", "-b", builder,
-               "-d", str(doctrees), str(settings.docs), str(out)]  # fmt: skip
+    command = [sys.executable, "-m", "sphinx", "-q", *([] if doctrees else ["-E"]), "-n",
+               "--keep-going", "-b", builder, "-d", str(read),
+               str(settings.docs), str(out), *map(str, pages)]  # fmt: skip
     for name, value in options.items():
         command += ["-D", f"{name}={value}"]
     if edition is Edition.STUDENT:
@@ -68,7 +80,7 @@ def run_sphinx(settings: Settings, edition: Edition, builder: str, out: Path) ->
     (out / ".buildinfo").unlink(missing_ok=True)
     shutil.rmtree(out / "_sources", ignore_errors=True)
     said = _plain(done.stderr, settings.root)
-    return Outcome(out, tuple(said), done.returncode != 0)
+    return Outcome(out, read, tuple(said), done.returncode != 0)
 
 
 def _environment() -> dict[str, str]:
