@@ -16,7 +16,7 @@ from sphinx.util import logging
 from sphinx.writers.html5 import HTML5Translator
 
 from ..literate.check import load_sound
-from . import charts, directives, figures, katex, roles
+from . import charts, directives, figures, katex, outputs, plot_figure, roles
 from .assets import copy_fonts
 from .book_nodes import (
     Linker,
@@ -136,6 +136,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_role("id", roles.IdentifierRole())
     app.add_css_file("fonts/fonts.css", priority=300)
     app.add_css_file("book.css", priority=900)
-    for part in (katex, figures, charts):
+    for part in (katex, figures, charts, outputs, plot_figure):
         part.setup(app)
     return {"parallel_read_safe": False, "parallel_write_safe": True}
