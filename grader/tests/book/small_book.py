@@ -90,6 +90,16 @@ MEAN = """\
 Find the *wombat* of two numbers.
 :::
 
+| a | b | mean |
+| --- | --- | --- |
+| 1 | 3 | 2 |
+
+## Many users
+
+:::{source} src/shapes/many.c
+:::
+
+MANY_BOXES
 ## Indices
 
 :::{fragment-index}
@@ -98,6 +108,14 @@ Find the *wombat* of two numbers.
 :::{identifier-index}
 :::
 """
+
+USERS = ("one", "two", "three", "four", "five", "six", "seven")
+MANY = "\n".join(
+    f"//> many.{n}: Use number {n}\n"
+    f"float many_{n}(void)\n{{\n    return DISC_PI;\n}}\n//< many.{n}\n"
+    for n in USERS
+)
+MEAN = MEAN.replace("MANY_BOXES\n", "".join(f":::{{fragment}} many.{n}\n:::\n\n" for n in USERS))
 
 
 def make_book(root: Path) -> Path:
@@ -114,6 +132,7 @@ def make_book(root: Path) -> Path:
     }.items():
         (docs / name).parent.mkdir(parents=True, exist_ok=True)
         (docs / name).write_text(text, encoding="utf-8")
+    (root / "src" / "shapes" / "many.c").write_text('#include "shapes/disc.h"\n\n' + MANY)
     (root / "src" / "build.mk").write_text("CC := gcc\n")
     (root / "build" / "node").symlink_to(CHECKOUT / "build" / "node")
     return root

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from collections.abc import Iterator
+from contextlib import nullcontext
 from itertools import pairwise
 from pathlib import Path
 
@@ -13,7 +15,9 @@ from reading import chromium, reading
 from small_book import make_book, weave
 
 from raybook_grader.book.editions import Edition
-from raybook_grader.book.paper import print_pdf
+from raybook_grader.book.paper import PageNumbers, print_pdf, printed, sheet_of
+from raybook_grader.book.pdf_file import renumbered, sealed
+from raybook_grader.errors import BadInput
 from raybook_grader.literate.leaks import scan
 from raybook_grader.literate.secrets import checkout_secrets
 
@@ -41,8 +45,54 @@ def site(book: Path) -> Path:
 def paper(book: Path) -> Path:
     """The PDF. Before the browser is started: two do not go together."""
     page = weave(book, Edition.STUDENT, "singlehtml").folder / "index.html"
-    print_pdf(page, book / "build" / "book.pdf")
+    numbers = print_pdf(page, book / "build" / "book.pdf")
+    (book / "build" / "again.pdf").write_bytes(print_otherwise(page, numbers))
     return book / "build" / "book.pdf"
+
+
+def print_otherwise(page: Path, numbers: PageNumbers) -> bytes:
+    """What a browser prints that has counted other nodes before, as a busy one may have."""
+    with sheet_of(page) as sheet:
+        sheet.context.new_cdp_session(sheet).send("DOM.getDocument", {"depth": 4})
+        data = printed(sheet, numbers)
+    counted = re.findall(rb"/ID \(node(\d+)\)", data)
+    assert len(counted) >= 3 and int(min(counted)) > 1, "the table's heads"
+    return sealed(data)
+
+
+def test_paper_depends_on_the_page_alone(paper: Path) -> None:
+    assert paper.read_bytes() == paper.with_name("again.pdf").read_bytes()
+
+
+def test_nodes_are_numbered_from_one_and_in_order() -> None:
+    first = b"/ID (node00000916) /Names [(node00000916) 3 0 R (node00000940) 4 0 R]"
+    second = first.replace(b"916", b"902").replace(b"940", b"999")
+    assert first != second and renumbered(first) == renumbered(second)
+    assert b"(node00000001) 3 0 R (node00000002) 4 0 R" in renumbered(first)
+    assert len(renumbered(first)) == len(first)
+
+
+def test_wrong_page_numbers_are_never_printed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Remembered numbers that no longer hold cost a print; numbers that never hold are a fault."""
+    printed_with = []
+
+    def printed(sheet: object, numbers: PageNumbers) -> PageNumbers:
+        printed_with.append(numbers)
+        return {"print-1": str(len(printed_with)) if restless else "5"}
+
+    monkeypatch.setattr("raybook_grader.book.paper.sheet_of", lambda page: nullcontext())
+    monkeypatch.setattr("raybook_grader.book.paper.printed", printed)
+    monkeypatch.setattr("raybook_grader.book.paper._destinations", lambda data: data)
+    monkeypatch.setattr("raybook_grader.book.paper.sealed", lambda data: b"sealed")
+    restless = False
+    numbers = print_pdf(tmp_path, tmp_path / "book.pdf", {"print-1": "4"})
+    assert printed_with == [{"print-1": "4"}, {"print-1": "5"}] and numbers == {"print-1": "5"}
+    restless = True
+    with pytest.raises(BadInput, match="do not settle"):
+        print_pdf(tmp_path, tmp_path / "restless.pdf", {"print-1": "0"})
+    assert not (tmp_path / "restless.pdf").exists()
 
 
 def test_the_pdf_has_contents_links_and_no_solution(book: Path, paper: Path) -> None:
@@ -55,6 +105,8 @@ def test_the_pdf_has_contents_links_and_no_solution(book: Path, paper: Path) -> 
     for title in ("1. Discs", "2. Means"):
         row = next(line for line in contents.splitlines() if title in line)
         assert title in pages[int(row.split()[-1]) - 1], row
+    folded = " ".join(text.partition("DISC_PI is used in")[2].split()[:60])
+    assert "8 places" in folded and "Use number seven" in folded, "opened on paper"
     assert "float disc_area(const struct disc" in text and "zanzibar" not in text
     assert "frag-disc-area" in tell("pdfinfo", "-dests", str(paper)), "links go to places"
     assert scan(paper, checkout_secrets(book)).clean
@@ -157,6 +209,26 @@ def test_the_page_has_an_order(paper: Path, browser: Browser, site: Path) -> Non
         assert all(b - a <= 1 for a, b in pairwise(levels))
         assert read.js("() => document.documentElement.lang") == "en"
         assert read.js("() => document.querySelectorAll('img:not([alt])').length") == 0
+
+
+def test_a_folded_list_opens_by_keyboard_and_on_paper(
+    paper: Path, browser: Browser, site: Path
+) -> None:
+    focused = "() => document.activeElement.matches('.rb-foot summary')"
+    with reading(browser, site, DISC) as read:
+        link = read.page.locator(".rb-foot details a").first
+        assert not link.is_visible()
+        for _ in range(200):
+            read.page.keyboard.press("Tab")
+            if read.js(focused):
+                break
+        assert read.js(focused), "the list can be reached"
+        read.page.keyboard.press("Enter")
+        assert link.is_visible()
+        read.page.keyboard.press("Enter")
+        assert not link.is_visible()
+        read.page.emulate_media(media="print")
+        assert link.is_visible() and read.faults == []
 
 
 def test_paper_is_light_and_has_no_menus(paper: Path, browser: Browser, site: Path) -> None:

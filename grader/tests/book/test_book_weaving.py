@@ -6,9 +6,12 @@ import re
 from pathlib import Path
 
 import pytest
-from small_book import edit, make_book, weave
+from pygments.token import STANDARD_TYPES
+from small_book import USERS, edit, make_book, weave
 
+from raybook_grader.book import weaver
 from raybook_grader.book.editions import Edition, Reader
+from raybook_grader.book.highlight import COLOURED
 from raybook_grader.book.links import link_faults
 from raybook_grader.book.round_trip import text_faults
 from raybook_grader.book.untangle import untangle
@@ -61,7 +64,7 @@ def test_a_page_that_was_tampered_with_is_told(
     reader = Reader(load_tree(book), Edition.STUDENT)
     page.write_text(text)
     assert text_faults(tmp_path, reader) == []
-    page.write_text(text.replace("radius</span>", "diameter</span>", 1))
+    page.write_text(text.replace("d-&gt;radius", "d-&gt;diameter", 1))
     assert text_faults(tmp_path, reader) != []
 
 
@@ -111,6 +114,21 @@ def test_names_link_to_their_definitions(sites: dict[Edition, Path]) -> None:
     assert 'href="01-disc.html#id-disc_area"' in index
     assert "inside_radius" not in index, "a helper of the solution"
     assert "inside_radius" in chapter(sites[Edition.INSTRUCTOR], "02-mean")
+
+
+def test_a_long_list_of_users_is_folded(sites: dict[Edition, Path]) -> None:
+    types = box(chapter(sites[Edition.STUDENT]), "frag-disc-types")
+    words = r"<details><summary><code>DISC_PI</code> is used in (\d+) places.*?</details>"
+    folded = re.search(words, types, re.DOTALL)
+    assert folded and int(folded[1]) == folded[0].count("<a ") == len(USERS) + 1
+    assert f'href="02-mean.html#frag-many-{USERS[-1]}"' in folded[0]
+    assert "<p><code>ray</code> is used in " in types, "a short one stands open"
+
+
+def test_what_has_a_colour_has_an_element() -> None:
+    css = (Path(weaver.__file__).parent / "static" / "site" / "book.css").read_text()
+    styled = set(re.findall(r"\.rb-code \.([a-z]+\d?)\b(?=[ ,{])", css))
+    assert styled & set(STANDARD_TYPES.values()) == COLOURED
 
 
 def test_students_are_told_what_is_theirs(sites: dict[Edition, Path]) -> None:
