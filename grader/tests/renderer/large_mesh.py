@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -16,7 +17,7 @@ that is started by a small shell does not."""
 def write_ring(path: Path, triangles: int) -> int:
     """A closed, dented ring of about so many triangles with texture coordinates, as an OBJ file;
     how many there are. 10 million are 760 MB of text."""
-    side = round((triangles / 2) ** 0.5)
+    side = round(math.sqrt(triangles / 2))
     aside = path.with_suffix(".new")
     with aside.open("w", encoding="ascii") as out:
         out.writelines(_vertices(side))
