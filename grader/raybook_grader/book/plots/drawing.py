@@ -52,7 +52,7 @@ def points_svg(titles: Sequence[str], points: Sequence[Array],
         for axes, title, own, grid in zip(rows, titles, points, grids, strict=True):
             _square(axes, grid)
             axes.scatter(own[:, 0], own[:, 1], s=size, color=_COLOURS["blue"], zorder=3)
-            axes.set_title(title, y=-0.17, fontsize=10.5)
+            axes.set_xlabel(title)
         return _svg(figure)
 
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...judge.pixels import Array, luminance
 from .curves import Curve, Panel
@@ -19,7 +21,7 @@ SAMPLED = ("scenes/soft-shadows.json", "scenes/sunny-sky.json")
 _SPP = (1, 4, 16, 64, 256, 1024)
 _TRUTH = 16_384
 _TRUTH_SEED = 1_000
-_LAMP = 5.0  # no lit surface of the scene is brighter, every pixel of its lamp is
+_LAMP = 2.0  # brighter than any lit surface of the scene; what shows some of the lamp is left out
 _TILE = 8
 _INDEPENDENT = {"sampler": {"type": "independent"}}
 _STRATIFIED = {"sampler": {"type": "stratified"}}
@@ -27,12 +29,10 @@ _STRATIFIED = {"sampler": {"type": "stratified"}}
 
 def seven_lamps(root: Path) -> list[Panel]:
     """One lamp of seven: picked by power, evenly, and with better numbers."""
-    renders = Renders(root, SEVEN, (48, 48))
-    truth = renders.draw(_TRUTH, _TRUTH_SEED, _STRATIFIED)
-    surfaces = luminance(truth) < _LAMP
+    renders, truth = _seven(root), _truth(root)
 
     def error(picture: Array) -> float:
-        return _rms((picture - truth)[surfaces]) / float(truth[surfaces].mean())
+        return _rms((picture - truth)[_surfaces(truth)]) / _brightness(truth)
 
     even = {**_INDEPENDENT, "integrator": {"light_selection": "uniform"}}
     rows = (("one lamp, by power", "orange", _INDEPENDENT),
@@ -44,12 +44,11 @@ def seven_lamps(root: Path) -> list[Panel]:
 
 def bias_of_ambient(root: Path) -> list[Panel]:
     """A right program, a right one with less noise, and one with light in the shadows."""
-    right = Renders(root, SEVEN, (48, 48))
-    wrong = Renders(root, SEVEN, (48, 48), AMBIENT)
-    truth = right.draw(_TRUTH, _TRUTH_SEED, _STRATIFIED)
+    right, wrong, truth = _seven(root), _seven(root, AMBIENT), _truth(root)
+    surfaces = _surfaces(truth)[..., None]
 
     def error(picture: Array) -> float:
-        return _rms(tiles(picture) - tiles(truth)) / float(truth.mean())
+        return _rms(tiles((picture - truth) * surfaces)) / _brightness(truth)
 
     rows = (("right", "blue", right, _INDEPENDENT),
             ("right, less noise", "green", right, _STRATIFIED),
@@ -67,7 +66,7 @@ def samplers(root: Path) -> list[Panel]:
         curves = []
         for kind, style in kinds:
             override = {"sampler": {"type": kind}}
-            errors = tuple((n, _from_two(renders, n, override)) for n in (4, 16, 64, 256))
+            errors = tuple((n, _from_two(renders, n, override)) for n in (4, 16, 64))
             curves.append(Curve(kind, style, errors))
         panels.append(Panel(Path(scene).stem, tuple(curves)))
     return panels
@@ -81,6 +80,25 @@ def tiles(picture: Array) -> Array:
     return means
 
 
+def _seven(root: Path, mistake: str = "") -> Renders:
+    return Renders(root, SEVEN, (48, 48), mistake)
+
+
+@cache
+def _truth(root: Path) -> Array:
+    return _seven(root).draw(_TRUTH, _TRUTH_SEED, _STRATIFIED)
+
+
+def _surfaces(truth: Array) -> NDArray[np.bool_]:
+    """All but the lamp."""
+    mask: NDArray[np.bool_] = luminance(truth) < _LAMP
+    return mask
+
+
+def _brightness(truth: Array) -> float:
+    return float(truth[_surfaces(truth)].mean())
+
+
 def _curve(
     renders: Renders, error: Callable[[Array], float], override: Override
 ) -> tuple[tuple[int, float], ...]:
@@ -91,7 +109,7 @@ def _pooled(
     renders: Renders, spp: int, override: Override, error: Callable[[Array], float]
 ) -> float:
     """The root mean square error over some seeds: fewer where a picture has more samples."""
-    seeds = range(1, 1 + max(4, min(16, 256 // spp)))
+    seeds = range(1, 1 + max(2, min(16, 1024 // spp)))
     return _rms([error(renders.draw(spp, seed, override)) for seed in seeds])
 
 
