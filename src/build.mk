@@ -48,7 +48,11 @@ asan := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all \
 # Modules are files; only link-time optimisation can inline one into another.
 # Where gcc 12 knows which registers a callee leaves alone (ipa-ra), it leaves
 # the upper halves of vectors in use, and the C library's mathematics is slow.
-lto := $(if $(filter release-gcc,$(OPT)-$(notdir $(CC))$(CHECK)),-flto=auto -fno-ipa-ra)
+# The limits are raised until a box's test is part of the walk through a tree.
+inlining := --param=max-inline-insns-auto=80 --param=max-inline-insns-single=400 \
+    --param=large-function-growth=400 --param=inline-unit-growth=200
+lto := $(if $(filter release-gcc,$(OPT)-$(notdir $(CC))$(CHECK)), \
+    -flto=auto -fno-ipa-ra $(inlining))
 
 # -isystem: the warnings are for our code.
 libraries_cflags := $(patsubst -I%,-isystem%,$(filter -I%,$(shell \
@@ -91,7 +95,9 @@ $(objdir)/%.o: $(VARIANT)/src/%.c src/%.c $(stamp)
 	@objcopy --keep-global-symbols=$@.symbols $@.all $@
 endif
 
-# Others' code, which shifts into the sign here and there; memory is watched.
+# Others' code. It is kept out of the above, since what gcc would then think of it
+# is no error of ours; it shifts into the sign here and there; memory is watched.
+$(objdir)/image/stb_library.o: private lto :=
 $(objdir)/image/stb_library.o: cflags += $(if $(filter asan,$(OPT)),-fno-sanitize=undefined)
 
 $(objdir)/main.o $(objdir)/program/results.o: cflags += -DRAYBOOK_VERSION='"$(VERSION)"' \
@@ -143,7 +149,7 @@ programs: $(program) $(TESTS:%.c=$(testdir)/%)
 compile_commands.json: $(stamp) src/build.mk
 	@{ printf '['; comma=''; for file in $(sources) $(tests); do \
 	    printf '%s\n{"directory": "%s", "file": "%s", "command": "%s -c %s"}' "$$comma" \
-	        "$(CURDIR)" "$$file" '$(CC) $(filter-out -flto%,$(cflags)) $(unity_flags)' "$$file"; \
+	        "$(CURDIR)" "$$file" '$(CC) $(filter-out $(lto),$(cflags)) $(unity_flags)' "$$file"; \
 	    comma=','; done; printf '\n]\n'; } > $@.new
 	@mv $@.new $@
 
