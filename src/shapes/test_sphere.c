@@ -238,9 +238,9 @@ static struct surface hit_surface(struct sphere s, ray r)
 {
     float t = 0.0f;
     TEST_ASSERT_TRUE(sphere_intersect(&s, &r, &t));
-    struct surface s;
-    sphere_surface(&s, &r, t, &s);
-    return s;
+    struct surface met;
+    sphere_surface(&s, &r, t, &met);
+    return met;
 }
 
 static long double distance_off(const struct sphere *s, vec3 p)

@@ -130,9 +130,9 @@ static struct surface random_sphere_hit(struct sampler *random,
     ray r = ray_make(vec3_step(s->center, 5 * s->radius, d), vec3_negate(d), 0,
                      INFINITY);
     TEST_ASSERT_TRUE(sphere_intersect(s, &r, &t));
-    struct surface s;
-    sphere_surface(s, &r, t, &s);
-    return s;
+    struct surface met;
+    sphere_surface(s, &r, t, &met);
+    return met;
 }
 
 /* Outwards it meets nothing; inwards it meets the far wall, which is at twice
