@@ -61,7 +61,7 @@ def test_scene_renders(scene: Path, tmp_path: Path) -> None:
 
 
 def test_the_forest_is_what_its_script_writes() -> None:
-    script = [sys.executable, "-B", SCENES / "forest.py"]
+    script = [sys.executable, "-B", str(SCENES / "forest.py")]
     done = subprocess.run(script, check=True, capture_output=True, text=True)
     assert done.stdout == (SCENES / "forest.json").read_text(encoding="utf-8")
 
