@@ -96,7 +96,7 @@ int bench_build(int argc, char *argv[])
     int count = make_entries(entries, argv + 3, &b.mesh, repeats);
     for (int k = 0; k < repeats; k++)
         for (int i = 0; i < count; i++) {
-            struct caster c;
+            struct caster c = {0};
             build_once(&entries[i], &b.mesh, &c);
             entries[i].wall[k] = c.build_wall;
             entries[i].cpu[k] = c.build_cpu;
