@@ -8,8 +8,7 @@
 
 enum { SMALL_TASK = 1024, CACHE_LINE = 64 };
 
-/* References -------------------------------------------------------------- */
-
+//> wide.references: A box for each primitive
 /* The corners of a triangle; false: it is none. */
 static bool corners_of(const struct wide_source *source, uint32_t primitive,
                        vec3 corners[3])
@@ -42,9 +41,9 @@ static struct reference *make_references(const struct wide_source *source)
             source, source->numbers != NULL ? source->numbers[i] : i);
     return references;
 }
+//< wide.references
 
-/* Counting ---------------------------------------------------------------- */
-
+//> wide.count: Count the nodes of every subtree
 /* Counts the wide nodes below each twig that becomes one. */
 static void count_nodes(struct twig *twigs, uint32_t index)
 {
@@ -67,8 +66,7 @@ static void count_nodes(struct twig *twigs, uint32_t index)
         if (twigs[child[i]].children != 0)
             twigs[index].nodes += twigs[child[i]].nodes;
 }
-
-/* Writing ----------------------------------------------------------------- */
+//< wide.count
 
 struct writer {
     const struct wide_source *source;
@@ -78,6 +76,7 @@ struct writer {
     struct wide_pack *packs;
 };
 
+//> wide.write_pack: Write a pack of triangles
 static void write_corner(struct wide_pack *p, int corner, int lane, vec3 at)
 {
     p->corner[corner][0][lane] = at.x;
@@ -122,6 +121,7 @@ static uint32_t write_pack(const struct writer *w, const struct twig *twig,
             reference |= WIDE_OTHER;
     return reference;
 }
+//< wide.write_pack
 
 static void write_box(struct wide_node *n, int lane, const aabb *box)
 {
@@ -133,6 +133,7 @@ static void write_box(struct wide_node *n, int lane, const aabb *box)
     n->planes[5][lane] = box->upper.z;
 }
 
+//> wide.write_node: Write a subtree's nodes, each to its own place
 static void write_node(const struct writer *w, uint32_t index, uint32_t node,
                        uint32_t pack);
 
@@ -174,9 +175,9 @@ static void write_node(const struct writer *w, uint32_t index, uint32_t node,
     }
 #pragma omp taskwait
 }
+//< wide.write_node
 
-/* Together ---------------------------------------------------------------- */
-
+//> wide.make_room: Room for packs and nodes
 static void *at_cache_line(void *memory)
 {
     uintptr_t address = (uintptr_t)memory;
@@ -194,7 +195,9 @@ static void make_room(struct wide *tree, struct writer *w)
     tree->packs = w->packs;
     tree->nodes = w->nodes;
 }
+//< wide.make_room
 
+//> wide.write_tree: Write the whole tree
 static void write_tree(struct wide *tree, struct writer *w)
 {
     struct twig *root = w->twigs;
@@ -215,6 +218,7 @@ static void write_tree(struct wide *tree, struct writer *w)
 #pragma omp single
         write_node(w, 0, 0, 0);
 }
+//< wide.write_tree
 
 struct wide wide_build(const struct wide_source *source)
 {

@@ -59,8 +59,7 @@ static bool is_fine(struct exr_file *f, exr_result_t result, const char *what)
                      f->path, what, exr_get_default_error_message(result));
 }
 
-/* ---- the header ---- */
-
+//> exr.header: Which pictures are read
 static bool check_kind(struct exr_file *f)
 {
     int parts;
@@ -147,9 +146,9 @@ static bool check_chunk_size(struct exr_file *f)
                      "%" PRIu64 " bytes, expected at most %" PRIu64,
                      f->path, bytes, most_chunk_bytes);
 }
+//< exr.header
 
-/* ---- numbers ---- */
-
+//> exr.numbers: From bytes to a component of a pixel
 /* Which of a pixel's components a channel fills: first .. end - 1. */
 struct components {
     int first, end;
@@ -199,9 +198,9 @@ static void set_component(rgb *pixel, int component, float value)
     else
         pixel->b = value;
 }
+//< exr.numbers
 
-/* ---- chunks ---- */
-
+//> exr.unpack: Put the rows of a chunk in their place
 /* One channel of one row that begins at the window coordinates x, y. */
 static void unpack_row(const struct exr_file *f,
                        const exr_coding_channel_info_t *channel,
@@ -234,7 +233,9 @@ static void unpack_chunk(const struct exr_file *f,
             bytes += (size_t)channel->width * channel->bytes_per_element;
         }
 }
+//< exr.unpack
 
+//> exr.decode: Let the library decompress a chunk
 /* Does the unpacked chunk hold as many bytes as unpack_chunk reads, and will
  * the library fill them? What is not compressed it does not check. */
 static bool chunk_is_whole(const exr_decode_pipeline_t *decoder)
@@ -290,7 +291,9 @@ static bool read_chunk(struct exr_file *f, const exr_chunk_info_t *chunk,
     exr_decoding_destroy(f->context, &decoder);
     return is_fine(f, result, "pixels");
 }
+//< exr.decode
 
+//> exr.chunks: All chunks, in rows or in tiles
 static bool read_scanlines(struct exr_file *f)
 {
     int32_t rows;
@@ -345,6 +348,7 @@ static bool read_pixels(struct exr_file *f)
         return false;
     return storage == EXR_STORAGE_TILED ? read_tiles(f) : read_scanlines(f);
 }
+//< exr.chunks
 
 static bool read_file(struct exr_file *f)
 {

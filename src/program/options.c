@@ -24,6 +24,7 @@ const char *const aov_names[] = {"albedo",   "normal",    "depth",    "uv",
 typedef bool set_fn(struct options *o, const char *name, const char *value,
                     struct error *err);
 
+//> options.values: Read the value of each option
 static bool set_output(struct options *o, const char *name, const char *value,
                        struct error *err)
 {
@@ -210,6 +211,9 @@ static bool set_tev(struct options *o, const char *name, const char *value,
     return true;
 }
 
+//< options.values
+
+//> options.table: The table of all options
 /* value: how the help names it; NULL: the option stands alone. A value in
  * brackets may be left out; it is then given only behind '='. */
 static const struct option {
@@ -262,7 +266,9 @@ static const struct option {
 };
 
 enum { OPTION_COUNT = sizeof table / sizeof table[0] };
+//< options.table
 
+//> options.parse: Find each argument in the table
 static const struct option *find_option(const char *text, size_t length)
 {
     for (int i = 0; i < OPTION_COUNT; i++) {
@@ -320,6 +326,8 @@ static bool parse_one(struct options *out, int *i, int argc, char *argv[],
     return option->set(out, option->name, value, err);
 }
 
+//< options.parse
+
 bool options_parse(int argc, char *argv[], struct options *out,
                    struct error *err)
 {
@@ -337,6 +345,7 @@ bool options_parse(int argc, char *argv[], struct options *out,
     return true;
 }
 
+//> options.help: Print the help from the same table
 static void print_option(const struct option *o)
 {
     char left[40];
@@ -361,3 +370,4 @@ void options_print_help(void)
             print_option(&table[i]);
     puts("\nexit code: 0 done, 2 bad input or usage, 1 anything else");
 }
+//< options.help

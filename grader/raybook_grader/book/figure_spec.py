@@ -14,6 +14,7 @@ from pathlib import Path
 from ..errors import BadInput
 
 _NOT_CODE = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|/\*.*?\*/|//[^\n]*', re.DOTALL)
+BOOK_MISTAKES = "docs/figures/mistakes"
 _TEST = re.compile(r"test_.*\.[ch]")
 
 
@@ -79,12 +80,16 @@ def code_key(root: Path) -> str:
 
 
 def mistake_file(root: Path, mistake: str) -> Path:
-    """The patch of "03-bvh/forgets-max.patch"; raises BadInput if there is none."""
-    assignment, _, name = mistake.partition("/")
-    file = root / "assignments" / assignment / "mistakes" / name
-    if not name or not file.is_file():
-        raise BadInput(f"mistake {mistake}: expected NN-name/slug.patch, a file of assignments/")
-    return file
+    """The patch of "03-bvh/forgets-max.patch", a mistake that students make, or of
+    "flat-ray.patch", one in a module that none of them writes. Raises BadInput if there is none."""
+    assignment, _, name = mistake.rpartition("/")
+    folder = root / "assignments" / assignment / "mistakes" if assignment else root / BOOK_MISTAKES
+    if not name or not (folder / name).is_file():
+        raise BadInput(
+            f"mistake {mistake}: expected NN-name/slug.patch, a file of assignments/,"
+            f" or slug.patch, one of {BOOK_MISTAKES}/"
+        )
+    return folder / name
 
 
 def _code(root: Path) -> bytes:

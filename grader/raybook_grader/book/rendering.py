@@ -7,6 +7,7 @@ import io
 import json
 import subprocess
 import tempfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from ..expected.programs import reference_program, variant_program
 from ..files import locked, write_bytes, write_text
 from ..literate.tree import load_tree
 from ..museum.exhibits import exhibits_of
+from ..museum.patches import patched, target_of
 from .figure_spec import FigureSpec, Picture, mistake_file, picture_key
 
 _QUALITY = 92
@@ -63,15 +65,23 @@ def _file(cache: Path, root: Path, spec: FigureSpec, picture: Picture) -> Path:
 
 def program_of(root: Path, picture: Picture) -> Path:
     if picture.mistake:
-        assignment, _, name = picture.mistake.partition("/")
-        mistake_file(root, picture.mistake)
-        of = next(a for a in load_course(root).assignments if a.folder.name == assignment)
-        slug = name.removesuffix(".patch")
-        exhibit = next(e for e in exhibits_of(root, of, strict=False) if e.slug == slug)
-        return variant_program(root, exhibit.files)
+        return variant_program(root, mistaken_files(root, picture.mistake))
     if unknown := picture.stubs - load_tree(root).todos.keys():
         raise BadInput(f"stub {', '.join(sorted(unknown))}: no such exercise")
     return reference_program(root, picture.stubs)
+
+
+def mistaken_files(root: Path, mistake: str) -> Mapping[str, bytes]:
+    """The files that a mistake changes, by their paths below the checkout."""
+    patch = mistake_file(root, mistake)
+    assignment, _, name = mistake.rpartition("/")
+    if not assignment:
+        diff = patch.read_text(encoding="utf-8")
+        target = target_of(diff)
+        return {str(target): patched(patch, diff, target, (root / target).read_bytes())}
+    of = next(a for a in load_course(root).assignments if a.folder.name == assignment)
+    exhibits = exhibits_of(root, of, strict=False)
+    return next(e.files for e in exhibits if e.slug == name.removesuffix(".patch"))
 
 
 def render_pixels(root: Path, spec: FigureSpec, program: Path) -> Image.Image:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import tempfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -11,6 +9,7 @@ from pathlib import Path, PurePosixPath
 from ..course import Assignment
 from ..errors import BadInput
 from .label import Label, split_mistake, split_twin
+from .patches import patched, target_of
 
 
 @dataclass(frozen=True)
@@ -123,13 +122,13 @@ def _changed(
     diff: str,
 ) -> Mapping[str, bytes]:
     """The module that a diff makes of the reference or of an alternative."""
-    target = PurePosixPath(diff.splitlines()[0].removeprefix("--- a/").split("\t")[0])
+    target = target_of(diff)
     if str(target) in reference.files:
         base, path = reference, str(target)
     else:
         base, path = _base(root, alternatives, assignment, patch, target)
     files = dict(base.files)
-    files[path] = _patched(patch, diff, target, files[path])
+    files[path] = patched(patch, diff, target, files[path])
     return files
 
 
@@ -148,20 +147,3 @@ def _base(
         if file.parent == entry:
             return exhibit, next(p for p in exhibit.files if PurePosixPath(p).name == file.name)
     raise BadInput(f"{patch}: changes {target}, expected an owned file or an alternative")
-
-
-def _patched(patch: Path, diff: str, target: PurePosixPath, content: bytes) -> bytes:
-    """The file with the diff applied to the letter: it may have moved, but not have changed."""
-    with tempfile.TemporaryDirectory(prefix="museum") as scratch:
-        file = Path(scratch, target)
-        file.parent.mkdir(parents=True)
-        file.write_bytes(content)
-        done = subprocess.run(
-            ["patch", "-p1", "--batch", "--forward", "--fuzz=0", "--no-backup-if-mismatch",
-             "--directory", scratch],
-            input=diff, capture_output=True, text=True, check=False,
-        )  # fmt: skip
-        left = [p for p in Path(scratch).rglob("*") if p.is_file() and p != file]
-        if done.returncode != 0 or left:
-            raise BadInput(f"{patch}: no longer applies to {target}:\n{done.stdout}{done.stderr}")
-        return file.read_bytes()

@@ -24,11 +24,14 @@ from bench_scenes import SCENES, BenchScene
 sys.path.insert(0, str(MITSUBA))
 from pixel_bias import pixel_bias
 
+Light = npt.NDArray[np.float64]
+
 VARIANTS = ("scalar_rgb", "llvm_ad_rgb")
 MEAN_LIMIT = 0.005
 TILE_LIMIT = 0.01
 TILE = 4  # pixels; single ones are too noisy at a few samples
 DEVIATIONS = 5.0
+DARKEST = 0.1  # of the mean
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
@@ -111,7 +114,8 @@ def speed_row(row: Row, found: Pictures) -> Row:
 
 def best_row(row: Row, found: Pictures, sampler: str) -> Row:
     """How many times as much time the peer needs for pictures as good."""
-    one, other = efficiency(found.ours), efficiency(found.theirs)
+    scale = scale_of(found)
+    one, other = efficiency(found.ours, scale), efficiency(found.theirs, scale)
     row = replace(row, figure=one.median).beside(quotient(one, other))
     row = _judged(row, found)
     return replace(row, note=f"{row.note}; Mitsuba's sampler: {sampler}")
@@ -132,16 +136,31 @@ def pixels(shots: Sequence[Shot]) -> list[npt.NDArray[np.float32]]:
     return [shot.pixels for shot in shots]
 
 
-def variances(shots: Sequence[Shot]) -> npt.NDArray[np.float64]:
-    """A pixel's variance, the mean over the pixels: of all pictures, then with each left out."""
-    light = np.stack(pixels(shots)).astype(float) @ LUMINANCE
+def scale_of(found: Pictures) -> Light:
+    """What a pixel's error is measured by: how bright both renderers show it, and no less than a
+    tenth of the picture's mean. Without it a handful of pixels at the rim of a lamp is all that
+    counts. (The relative error of F. Rousselle, C. Knaus and M. Zwicker, "Adaptive Sampling and
+    Reconstruction using Greedy Error Minimization", ACM Transactions on Graphics 30, 2011.)"""
+    light = luminance([*found.ours, *found.theirs]).mean(axis=0)
+    return light + DARKEST * light.mean()
+
+
+def luminance(shots: Sequence[Shot]) -> Light:
+    """Of every picture: (pictures, height, width)."""
+    return np.stack(pixels(shots)).astype(float) @ LUMINANCE
+
+
+def variances(shots: Sequence[Shot], scale: Light) -> Light:
+    """A pixel's relative variance, the mean over the pixels: of all pictures, then with each left
+    out."""
+    light = luminance(shots) / scale
     every = [np.delete(light, i, axis=0) for i in range(len(light))] if len(light) > 2 else []
     return np.array([part.var(axis=0, ddof=1).mean() for part in (light, *every)])
 
 
-def efficiency(shots: Sequence[Shot]) -> Spread:
+def efficiency(shots: Sequence[Shot], scale: Light) -> Spread:
     """1 / (variance x time), and how far it is from sure: one standard error (jackknife)."""
-    all_of_them, *others = variances(shots)
+    all_of_them, *others = variances(shots, scale)
     n = len(others)
     error = np.sqrt((n - 1) / n * np.sum((np.array(others) - np.mean(others)) ** 2)) if n else 0.0
     value = 1 / (all_of_them * spread(times(shots)).median)

@@ -11,10 +11,11 @@ from small_book import make_book, weave
 
 from raybook_grader.book import rendering
 from raybook_grader.book.editions import Edition
-from raybook_grader.book.figure_spec import FigureSpec, Picture, picture_key
+from raybook_grader.book.figure_spec import BOOK_MISTAKES, FigureSpec, Picture, picture_key
 from raybook_grader.book.manifest import Entry, differences, read_manifest, write_manifest
 from raybook_grader.errors import BadInput
 
+ROOT = Path(__file__).resolve().parents[3]
 SPEC = FigureSpec("disc", "scenes/demo.json", "--spp 4")
 PLAIN = Picture("solution")
 
@@ -44,6 +45,18 @@ def test_code_scene_and_options_make_a_picture_anew(tmp_path: Path) -> None:
         key(root, FigureSpec("disc", "scenes/none.json", ""))
     with pytest.raises(BadInput, match="01-disc/none"):
         key(root, SPEC, Picture("mistake", mistake="01-disc/none.patch"))
+
+
+def test_the_books_own_mistakes_fit_the_source_and_are_shown() -> None:
+    chapters = "\n".join(file.read_text() for file in (ROOT / "docs" / "chapters").glob("*.md"))
+    patches = sorted((ROOT / BOOK_MISTAKES).iterdir())
+    assert patches
+    for patch in patches:
+        (name, text), *others = rendering.mistaken_files(ROOT, patch.name).items()
+        assert not others and text != (ROOT / name).read_bytes()
+        assert f":mistake: {patch.name}\n" in chapters
+    with pytest.raises(BadInput, match="slug.patch, one of docs/figures/mistakes/"):
+        rendering.mistaken_files(ROOT, "none.patch")
 
 
 def test_a_change_that_can_be_seen_is_told(tmp_path: Path) -> None:
