@@ -55,7 +55,7 @@ def test_the_books_own_mistakes_fit_the_source_and_are_shown() -> None:
         (name, text), *others = rendering.mistaken_files(ROOT, patch.name).items()
         assert not others and text != (ROOT / name).read_bytes()
         assert f":mistake: {patch.name}\n" in chapters
-    with pytest.raises(BadInput, match="slug.patch, one of docs/figures/mistakes/"):
+    with pytest.raises(BadInput, match=r"slug\.patch, one of docs/figures/mistakes/"):
         rendering.mistaken_files(ROOT, "none.patch")
 
 
