@@ -141,13 +141,15 @@ def scale_of(found: Pictures) -> Light:
     tenth of the picture's mean. Without it a handful of pixels at the rim of a lamp is all that
     counts. (The relative error of F. Rousselle, C. Knaus and M. Zwicker, "Adaptive Sampling and
     Reconstruction using Greedy Error Minimization", ACM Transactions on Graphics 30, 2011.)"""
-    light = luminance([*found.ours, *found.theirs]).mean(axis=0)
-    return light + DARKEST * light.mean()
+    light: Light = luminance([*found.ours, *found.theirs]).mean(axis=0)
+    darkest: float = DARKEST * light.mean()
+    return light + darkest
 
 
 def luminance(shots: Sequence[Shot]) -> Light:
     """Of every picture: (pictures, height, width)."""
-    return np.stack(pixels(shots)).astype(float) @ LUMINANCE
+    light: Light = np.stack(pixels(shots)).astype(float) @ LUMINANCE
+    return light
 
 
 def variances(shots: Sequence[Shot], scale: Light) -> Light:
