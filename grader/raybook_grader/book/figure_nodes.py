@@ -6,6 +6,7 @@ can later be drawn in the page.
 
 from __future__ import annotations
 
+import hashlib
 import os
 from html import escape
 from pathlib import Path
@@ -14,6 +15,8 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 from sphinx.writers.html5 import HTML5Translator
+
+from ..files import locked, write_bytes
 
 
 class render_figure(nodes.figure):
@@ -29,11 +32,17 @@ class labelled_picture(nodes.General, nodes.Element):
 
 
 def place_picture(environment: BuildEnvironment, name: str, data: bytes) -> str:
-    """Put a picture where the build finds it; its address for an image node."""
-    folder = Path(environment.config.book_figures)
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / name).write_bytes(data)
-    return address_of(environment, folder / name)
+    """Put a picture where the build finds it; its address for an image node.
+
+    It is never written twice: the other edition may have read its pages by then, and would take
+    the page for one that has changed.
+    """
+    of_this_content = hashlib.sha256(data).hexdigest()[:20]
+    file = Path(environment.config.book_figures, of_this_content, name)
+    with locked(file.parent / ".lock"):
+        if not file.is_file():
+            write_bytes(file, data)
+    return address_of(environment, file)
 
 
 def address_of(environment: BuildEnvironment, file: Path) -> str:
