@@ -10,6 +10,7 @@ from tiny_programs import QUICK, RunC
 from raybook_grader.sandbox import Box, Limits
 
 HALF_SECOND = replace(QUICK, wall_seconds=0.5)
+ONE_SECOND_OF_WORK = replace(QUICK, cpu_seconds=1, wall_seconds=120)  # on a busy machine, too
 
 
 @pytest.mark.parametrize("code", [0, 3, 137, 255])
@@ -35,7 +36,7 @@ def test_endless_loop(run_c: RunC) -> None:
     assert result.outcome == "timeout"
     assert result.describe() == "no answer after 0.5 s"
     assert result.stdout == b"so far\n"
-    assert 0.1 < result.cpu_seconds < 5
+    assert 0 < result.cpu_seconds < 5
 
 
 def test_ignored_signals_and_stops_do_not_outlast_the_limit(run_c: RunC) -> None:
@@ -45,14 +46,14 @@ def test_ignored_signals_and_stops_do_not_outlast_the_limit(run_c: RunC) -> None
 
 
 def test_processor_time(run_c: RunC) -> None:
-    result = run_c("for (;;) ;", limits=replace(QUICK, cpu_seconds=1))
+    result = run_c("for (;;) ;", limits=ONE_SECOND_OF_WORK)
     assert (result.outcome, result.signal) == ("timeout", 24)
     assert result.describe() == "used more than 1 s of processor time"
 
 
 def test_processor_time_with_the_warning_ignored(run_c: RunC) -> None:
     body = "signal(SIGXCPU, SIG_IGN); for (;;) ;"
-    result = run_c(body, limits=replace(QUICK, cpu_seconds=1))
+    result = run_c(body, limits=ONE_SECOND_OF_WORK)
     assert (result.outcome, result.signal) == ("timeout", 9)
 
 
@@ -115,11 +116,14 @@ def test_standard_input(run_c: RunC) -> None:
 
 def test_usage_counts_the_whole_box(run_c: RunC) -> None:
     body = """
+    int lives[2]; char end;
+    if (pipe(lives)) return 1;
     if (fork() == 0) {
         if (fork() == 0) { memset(malloc(64 << 20), 1, 64 << 20); }
         _exit(0);
     }
-    while (wait(NULL) > 0) ;
+    close(lives[1]);
+    if (read(lives[0], &end, 1)) return 2;  /* until the orphan has ended */
     usleep(200000);
     """
     result = run_c(body, before="#pragma GCC optimize 0")
