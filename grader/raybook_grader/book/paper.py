@@ -17,7 +17,7 @@ from ..errors import BadInput
 from ..files import write_bytes
 from .pdf_file import sealed
 
-_DESTINATION = re.compile(r'\s*(\d+) \[.*\] "(print-\d+)"')
+_DESTINATION = re.compile(r'\s*(\d+) \[.*\] "(.+)"')
 _FOOT = (
     '<div style="width: 100%; font: 8px sans-serif; color: #666; text-align: center">'
     '<span class="pageNumber"></span></div>'
@@ -32,7 +32,7 @@ _ALL_THERE = """async () => {
 
 
 PageNumbers = dict[str, str]
-"""By the id of a heading in the table of contents."""
+"""By the id of what a link leads to."""
 
 
 def print_pdf(page: Path, out: Path, numbers: PageNumbers | None = None) -> PageNumbers:
@@ -41,14 +41,17 @@ def print_pdf(page: Path, out: Path, numbers: PageNumbers | None = None) -> Page
     Returns the page numbers of the contents. Who knows or remembers `numbers` saves a print, if
     they still hold; a print with numbers that don't is never kept.
     """
-    with sheet_of(page) as sheet:
-        numbers = _destinations(_plain(sheet)) if numbers is None else numbers
-        for _ in range(_PRINTS):
+    if numbers is None:
+        with sheet_of(page) as sheet:
+            numbers = _destinations(_plain(sheet))
+    for _ in range(_PRINTS):
+        # A fresh sheet: one that was filled before is laid out by its history, a hair otherwise.
+        with sheet_of(page) as sheet:
             data = printed(sheet, numbers)
-            before, numbers = numbers, _destinations(data)
-            if numbers == before:
-                write_bytes(out, sealed(data))
-                return numbers
+        before, numbers = numbers, _destinations(data)
+        if numbers == before:
+            write_bytes(out, sealed(data))
+            return numbers
     raise BadInput(f"{out.name}: the page numbers of the contents do not settle")
 
 
@@ -90,7 +93,7 @@ def _prepare(sheet: Page, numbers: PageNumbers) -> None:
 
 
 def _destinations(data: bytes) -> PageNumbers:
-    """The page of each heading, by poppler's pdfinfo."""
+    """The page of all that is linked to, by poppler's pdfinfo."""
     with tempfile.NamedTemporaryFile(suffix=".pdf") as file:
         file.write(data)
         file.flush()

@@ -16,7 +16,7 @@ from sphinx.util import logging
 from sphinx.writers.html5 import HTML5Translator
 
 from ..literate.check import load_sound
-from . import charts, directives, figures, katex, outputs, plot_figure, roles
+from . import bibliography, charts, directives, figures, katex, outputs, plot_figure, roles
 from .assets import copy_fonts
 from .book_nodes import (
     Linker,
@@ -34,6 +34,7 @@ from .editions import Edition, Reader
 from .identifiers import Identifiers
 from .indices import fragment_list, identifier_list
 from .places import places_of
+from .typography import KeepPunctuation
 
 _log = logging.getLogger(__name__)
 _STATIC = Path(__file__).parent / "static"
@@ -112,6 +113,7 @@ def add_static_files(app: Sphinx) -> None:
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Register everything with Sphinx."""
+    bibliography.register()
     for name, value in (("edition", "instructor"), ("draft", False), ("root", ".."),
                         ("node", "."), ("assets", "assets"), ("figures", "figures"),
                         ("manifest", ""), ("accept", False)):  # fmt: skip
@@ -132,6 +134,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("instructor", directives.InstructorDirective)
     app.add_directive("fragment-index", directives.FragmentIndexDirective)
     app.add_directive("identifier-index", directives.IdentifierIndexDirective)
+    app.add_post_transform(KeepPunctuation)
     app.add_role("frag", roles.FragmentRole())
     app.add_role("id", roles.IdentifierRole())
     app.add_css_file("fonts/fonts.css", priority=300)
