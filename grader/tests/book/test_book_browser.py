@@ -22,6 +22,11 @@ from raybook_grader.literate.leaks import scan
 from raybook_grader.literate.secrets import checkout_secrets
 
 DISC = "chapters/01-disc.html"
+# What reaches over the right edge, but for what scrolls in a box of its own.
+TOO_WIDE = """() => [...document.querySelectorAll("article *")]
+  .filter((e) => e.getBoundingClientRect().right > innerWidth)
+  .filter((e) => !e.closest("pre, .math-body, .table-wrapper, .katex-mathml, figure:has(> img)"))
+  .map((e) => `${e.tagName} ${e.className}`)"""
 
 
 @pytest.fixture(scope="module")
@@ -192,6 +197,7 @@ def test_a_phone_scrolls_down_only(paper: Path, browser: Browser, site: Path) ->
     for page in ("index.html", DISC, "chapters/02-mean.html"):
         with reading(browser, site, page, width=360) as read:
             assert read.js("() => document.documentElement.scrollWidth") <= 360, page
+            assert read.js(TOO_WIDE) == [], page
             if page == DISC:
                 box = "document.querySelector('{}').getBoundingClientRect()"
                 formula, number = box.format(".math-body"), box.format(".eqno")
