@@ -18,6 +18,6 @@ class KeepPunctuation(SphinxPostTransform):
     def run(self, **_: object) -> None:
         """Join each formula in the text with what follows it."""
         for formula in list(self.document.findall(nodes.math)):
-            after = formula.next_node(nodes.Text, descend=False, siblings=True)
-            if after is not None and after.startswith(_STAYS):
+            after = formula.next_node(descend=False, siblings=True)
+            if isinstance(after, nodes.Text) and after.startswith(_STAYS):
                 after.parent.replace(after, nodes.Text(_WORD_JOINER + after))

@@ -110,6 +110,9 @@ def test_the_pdf_has_contents_links_and_no_solution(book: Path, paper: Path) -> 
     for title in ("1. Discs", "2. Means"):
         row = next(line for line in contents.splitlines() if title in line)
         assert title in pages[int(row.split()[-1]) - 1], row
+    for name, declared in (("disc_area", "float disc_area("), ("mean_pair", "mean_pair(")):
+        at = re.search(rf"\b{name} (\d+) function", text)
+        assert at and declared in pages[int(at[1]) - 1], "the index leads to the page"
     folded = " ".join(text.partition("DISC_PI is used in")[2].split()[:60])
     assert "8 places" in folded and "Use number seven" in folded, "opened on paper"
     assert "float disc_area(const struct disc" in text and "zanzibar" not in text

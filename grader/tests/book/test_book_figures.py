@@ -124,9 +124,12 @@ def test_a_figure_on_its_page(tmp_path: Path) -> None:
     (bench / "bench.json").write_text("{}")
     (bench / "speed.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"/>')
     second = weave(root, Edition.INSTRUCTOR, accept=True)
+    (chart,) = cache.glob("*/chart-speed.svg")
+    written = chart.stat().st_mtime_ns
     assert not second.warnings
     assert "chart-speed.svg" in (second.folder / "chapters" / "03-figure.html").read_text()
     assert not weave(root, Edition.STUDENT).warnings
+    assert chart.stat().st_mtime_ns == written, "or the first edition's page counts as changed"
 
 
 def test_what_a_figure_must_say(tmp_path: Path) -> None:
